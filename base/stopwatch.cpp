@@ -1,0 +1,13 @@
+#include "base/stopwatch.h"
+
+#include <sys/resource.h>
+
+namespace tetraglass::base {
+
+std::uint64_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace tetraglass::base

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_data.h"
+#include "mesh/tet_mesh.h"
+
+namespace tetraglass::mesh {
+
+/// How to turn a file into tetrahedra. The defaults suit a first look.
+struct ImportOptions {
+  std::string time;  ///< "" or "last", a time value, or "index:N"; for files with time steps
+};
+
+/// What the file held and what was done to it.
+struct ImportReport {
+  std::map<CellType, std::size_t> input_cells;  ///< as in the file
+  std::size_t input_points = 0;
+  std::size_t skipped = 0;            ///< cells of dimension < 3 in a file that has cells of dimension 3
+  std::size_t inverted = 0;           ///< tetrahedra that were negatively oriented, now turned
+  std::vector<std::string> notes;     ///< one line each: assumptions, parts left out, tetrahedralizer used
+  double read_ms = 0;
+  double decompose_ms = 0;            ///< splitting into tetrahedra, or tetrahedralizing
+};
+
+struct Import {
+  TetMesh mesh;
+  ImportReport report;
+};
+
+/// Reads `file` (its format is told by its extension), and makes tetrahedra of it: cells of dimension 3 are split; a closed
+/// surface is filled (TetGen); points alone get their Delaunay tetrahedra (CGAL). A mesh made from a surface or from points
+/// carries the point field `distance` (to its boundary) unless the input's own fields could be carried over.
+/// Throws ReadError (missing, truncated, unknown extension, no cells), InputError (open or self-intersecting surface),
+/// UnavailableError (a library that this build lacks).
+[[nodiscard]] Import import_mesh(const std::string& file, const ImportOptions& options = {});
+
+/// The extensions that `import_mesh` reads, with the dot, lower case.
+[[nodiscard]] std::vector<std::string> readable_extensions();
+
+}  // namespace tetraglass::mesh

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tetraglass::preint {
+
+/// Linear RGB.
+using Color = Eigen::Array3d;
+
+struct ControlPoint {
+  double value = 0;
+  Color color = Color::Zero();
+  double extinction = 0;  ///< kappa >= 0, per unit length of the mesh
+};
+
+/// What the transfer function gives for one value.
+struct Medium {
+  Color color = Color::Zero();
+  double extinction = 0;
+};
+
+/// Color and extinction as functions of the field's value: linear between control points, constant
+/// beyond the ends; two points of the same value make a jump, whose value is that of the second (upper) point.
+class TransferFunction {
+ public:
+  /// At least one point, values not decreasing, at most two of the same value, everything finite, extinction >= 0.
+  /// Throws InputError otherwise, naming the point.
+  explicit TransferFunction(std::vector<ControlPoint> points);
+
+  [[nodiscard]] const std::vector<ControlPoint>& points() const { return points_; }
+
+  /// Cost: logarithmic in the number of control points.
+  [[nodiscard]] Medium at(double value) const;
+
+  /// The limit from below (at a jump: the first of its two points).
+  [[nodiscard]] Medium below(double value) const;
+
+  /// The largest extinction for any value in [low, high].
+  [[nodiscard]] double max_extinction(double low, double high) const;
+
+ private:
+  std::vector<ControlPoint> points_;
+};
+
+/// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}).
+/// Throws ReadError (missing, not JSON with line and column, wrong key with the right ones, wrong numbers).
+[[nodiscard]] TransferFunction read_transfer_function(const std::string& file);
+
+/// The names that `preset` knows, for help texts and suggestions.
+[[nodiscard]] std::vector<std::string> preset_names();
+
+/// A named color map over the values [low, high], with extinction rising linearly from 0 so that a ray along the
+/// whole `diagonal` (of the mesh's bounds, in its units) at the upper half of the range is nearly opaque: pictures
+/// do not depend on the mesh's units. low == high is allowed (a constant field).
+/// Throws UsageError for an unknown name, with the nearest ones.
+[[nodiscard]] TransferFunction preset(const std::string& name, double low, double high, double diagonal);
+
+}  // namespace tetraglass::preint

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/scene.h"
+
+namespace tetraglass::project {
+
+enum class Projector { reference, gl };
+enum class SortMethod { none, centroid, fragments };
+enum class Integrator { exact, table2d, table3d };
+enum class ContextKind { none, osmesa };
+
+/// What the user forced; what is not set is chosen by `plan`.
+struct Request {
+  std::optional<Projector> projector;
+  std::optional<SortMethod> sort;
+  std::optional<Integrator> integrator;
+  std::optional<ContextKind> context;
+  int table_n = 0;  ///< scalar resolution of the table, 0: chosen
+  int table_m = 0;  ///< length resolution of the 3D table, 0: chosen
+};
+
+/// How a scene is drawn, and why.
+struct Plan {
+  Projector projector = Projector::gl;
+  SortMethod sort = SortMethod::none;
+  Integrator integrator = Integrator::exact;
+  ContextKind context = ContextKind::none;
+  int table_n = 0;   ///< 0: no table
+  int table_m = 0;   ///< 0: no length axis
+  bool gradients = false;  ///< per-vertex gradients are computed (smooth shading)
+  std::vector<std::string> reasons;  ///< one line per decision, for people
+};
+
+/// Chooses the way to draw the scene. Pure: depends on nothing but its arguments.
+/// Throws UsageError where the request contradicts the scene (unsorted `full`, a projector that lacks what is asked for).
+[[nodiscard]] Plan plan(const Scene& scene, const Request& request);
+
+[[nodiscard]] std::string to_string(Projector projector);
+[[nodiscard]] std::string to_string(SortMethod sort);
+[[nodiscard]] std::string to_string(Integrator integrator);
+[[nodiscard]] std::string to_string(ContextKind context);
+
+}  // namespace tetraglass::project

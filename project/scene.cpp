@@ -1,0 +1,43 @@
+#include "project/scene.h"
+
+#include <algorithm>
+
+namespace tetraglass::project {
+
+std::string to_string(Mode mode) {
+  switch (mode) {
+    case Mode::full: return "full";
+    case Mode::emission: return "emission";
+    case Mode::absorption: return "absorption";
+    case Mode::mip: return "mip";
+    case Mode::iso: return "iso";
+    case Mode::thickness: return "thickness";
+  }
+  return "";
+}
+
+std::string to_string(Shading shading) {
+  switch (shading) {
+    case Shading::none: return "none";
+    case Shading::flat: return "flat";
+    case Shading::smooth: return "smooth";
+  }
+  return "";
+}
+
+bool is_commutative(const Scene& scene) {
+  switch (scene.mode) {
+    case Mode::full: return false;
+    // The nearest opaque surface wins by its depth alone; translucent ones are blended in order.
+    case Mode::iso:
+      return std::all_of(scene.isosurfaces.begin(), scene.isosurfaces.end(),
+                         [](const preint::Isosurface& surface) { return surface.opacity >= 1; });
+    case Mode::emission:
+    case Mode::absorption:
+    case Mode::mip:
+    case Mode::thickness: return true;
+  }
+  return false;
+}
+
+}  // namespace tetraglass::project

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+#include "preint/isosurfaces.h"
+#include "preint/transfer_function.h"
+#include "project/camera.h"
+
+namespace tetraglass::project {
+
+enum class Mode { full, emission, absorption, mip, iso, thickness };
+enum class MipOf { field, transfer };
+enum class Shading { none, flat, smooth };
+
+/// What is wanted: which mesh and field, seen how, from where. Says nothing of the way to draw it.
+struct Scene {
+  const mesh::TetMesh* mesh = nullptr;  ///< outlives the scene
+  mesh::ScalarField field;
+  mesh::Drawable drawable;              ///< the cells that can be drawn, for this field
+  preint::TransferFunction transfer_function{{preint::ControlPoint{}}};
+  Mode mode = Mode::full;
+  MipOf mip_of = MipOf::field;
+  std::vector<preint::Isosurface> isosurfaces;  ///< mode iso
+  Shading shading = Shading::none;
+  Camera camera;
+  int width = 800;
+  int height = 600;
+};
+
+[[nodiscard]] std::string to_string(Mode mode);
+[[nodiscard]] std::string to_string(Shading shading);
+
+/// Whether the picture does not depend on the order in which cells are drawn.
+[[nodiscard]] bool is_commutative(const Scene& scene);
+
+}  // namespace tetraglass::project
