@@ -34,11 +34,17 @@ using Box = Eigen::AlignedBox3d;
 /// Points with a coordinate that is not finite are passed over.
 [[nodiscard]] Box bounds(const TetMesh& mesh);
 
-/// One number per point or cell of the mesh, by `spec`: NAME, or NAME:x|y|z|magnitude or NAME:INDEX for a field
-/// of several components (NAME alone then means the magnitude). An empty `spec` takes the first scalar field, else
-/// the magnitude of the first one. Where no field of the mesh has that name, the generated point fields `x`, `y`, `z`
-/// and `radius` (distance from the centre of the bounds) can be asked for.
-/// Throws InputError with the nearest names where there is no such field.
+/// One number per point or cell of the mesh, by `spec`, which is tried in this order:
+/// - the exact name of a field, whatever characters it has;
+/// - NAME:x|y|z|magnitude or NAME:INDEX (from 0), a component of a field or its Euclidean length.
+///
+/// NAME alone means the magnitude of a field of several components. Of a point and a cell field of the
+/// same name the point field is taken; NAME@point and NAME@cell (before the colon) choose. An empty
+/// `spec` takes the first scalar field, else the magnitude of the first one. Where no field of the mesh
+/// has that name, the generated point fields `x`, `y`, `z` and `radius` (distance from the centre of the
+/// bounds) can be asked for.
+/// Throws InputError with the nearest names where there is no such field or component, and where a
+/// field has another number of values than the mesh has points or cells.
 [[nodiscard]] ScalarField select_scalar(const TetMesh& mesh, const std::string& spec);
 
 /// Which cells can be drawn, and how many cannot.
@@ -48,7 +54,9 @@ struct Drawable {
   std::size_t nan = 0;               ///< with a coordinate or a value that is not finite
 };
 
-/// Sorts out the cells without volume (exact orientation predicate) and those touching NaN or infinity.
+/// Sorts out the cells without volume (exact orientation predicate) and those touching NaN or infinity:
+/// a coordinate or, of a point field, a value at one of their four vertices; of a cell field, their own.
+/// A cell of both kinds counts as nan. In parallel. `field` belongs to `mesh` (as select_scalar makes it).
 [[nodiscard]] Drawable find_drawable(const TetMesh& mesh, const ScalarField& field);
 
 }  // namespace tetraglass::mesh

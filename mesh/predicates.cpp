@@ -1,0 +1,97 @@
+#include "mesh/predicates.h"
+
+#include <cmath>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace tetraglass::mesh {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 point(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+Kernel::Vector_3 vector(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Kernel::Vector_2 vector(const Eigen::Vector2d& v) {
+  return {v.x(), v.y()};
+}
+
+// The static error bounds of the determinants, after Shewchuk 1997, "Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", section 4. His bounds of
+// orient2d and orient3d start from differences of coordinates; here the entries are given, so fewer
+// roundings count.
+//
+// Let u = 2^-53, D the determinant, P its permanent of absolute values, and D^, P^ what floating
+// point makes of them in the same order of operations. In the 3 x 3 determinant every product of
+// three entries passes through 5 roundings (product, difference of the minor, product, two sums):
+// |D^ - D| <= ((1 + u)^5 - 1) P <= (5 u + 11 u^2) P, and P <= P^ / (1 - u)^5 <= (1 + 6 u) P^. With
+// the rounding of the bound itself, (5 + 64 u) u P^ is enough. In the 2 x 2 determinant there are 2
+// roundings: (2 + 16 u) u P^.
+//
+// A product that underflows has instead an absolute error of at most h = 2^-1075. In the 3 x 3
+// determinant these add up to at most (2 h A + 3 h)(1 + u)^4 with A = |a_x| + |a_y| + |a_z|, in the
+// 2 x 2 one to 2 h; (A + 2) 2^-1072 and 2^-1072 leave room for the rounding of the bound, and for
+// what P^ lost to underflow (less than u times as much). Infinity and NaN, from overflow, fail the
+// comparison.
+constexpr double kU = 0x1p-53;
+constexpr double kBound3 = (5 + 64 * kU) * kU;
+constexpr double kBound2 = (2 + 16 * kU) * kU;
+constexpr double kUnderflow = 0x1p-1072;
+
+}  // namespace
+
+int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                const Eigen::Vector3d& d) {
+  return Kernel().orientation_3_object()(point(a), point(b), point(c), point(d));
+}
+
+int sign_of_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c) {
+  const double yz = b.y() * c.z();
+  const double zy = b.z() * c.y();
+  const double zx = b.z() * c.x();
+  const double xz = b.x() * c.z();
+  const double xy = b.x() * c.y();
+  const double yx = b.y() * c.x();
+  const double determinant = a.x() * (yz - zy) + a.y() * (zx - xz) + a.z() * (xy - yx);
+  const double ax = std::abs(a.x());
+  const double ay = std::abs(a.y());
+  const double az = std::abs(a.z());
+  const double permanent = ax * (std::abs(yz) + std::abs(zy)) + ay * (std::abs(zx) + std::abs(xz)) +
+                           az * (std::abs(xy) + std::abs(yx));
+  const double bound = kBound3 * permanent + kUnderflow * (ax + ay + az + 2);
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  if (a.isZero(0) || b.isZero(0) || c.isZero(0)) return 0;
+  return Kernel().orientation_3_object()(vector(a), vector(b), vector(c));
+}
+
+int sign_of_determinant(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double left = a.x() * b.y();
+  const double right = a.y() * b.x();
+  const double determinant = left - right;
+  const double bound = kBound2 * (std::abs(left) + std::abs(right)) + kUnderflow;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return Kernel().orientation_2_object()(vector(a), vector(b));
+}
+
+int in_sphere(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+              const Eigen::Vector3d& d, const Eigen::Vector3d& e) {
+  return Kernel().side_of_oriented_sphere_3_object()(point(a), point(b), point(c), point(d),
+                                                     point(e));
+}
+
+int same_side_of_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                      const Eigen::Vector3d& d) {
+  return Kernel().coplanar_orientation_3_object()(point(a), point(b), point(c), point(d));
+}
+
+bool collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return Kernel().collinear_3_object()(point(a), point(b), point(c));
+}
+
+}  // namespace tetraglass::mesh
