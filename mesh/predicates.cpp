@@ -33,13 +33,21 @@ Kernel::Vector_2 vector(const Eigen::Vector2d& v) {
 //
 // A product that underflows has instead an absolute error of at most h = 2^-1075. In the 3 x 3
 // determinant these add up to at most (2 h A + 3 h)(1 + u)^4 with A = |a_x| + |a_y| + |a_z|, in the
-// 2 x 2 one to 2 h; (A + 2) 2^-1072 and 2^-1072 leave room for the rounding of the bound, and for
-// what P^ lost to underflow (less than u times as much). Infinity and NaN, from overflow, fail the
-// comparison.
+// 2 x 2 one to 2 h, and what P^ lost to underflow adds less than u times as much. (A + 2) 2^-1000
+// and 2^-1000 are far more than that; they are no smaller so that the bound itself is computed in
+// normal numbers (subnormal ones cost over a hundred cycles). Infinity and NaN, from overflow, fail
+// the comparison.
 constexpr double kU = 0x1p-53;
 constexpr double kBound3 = (5 + 64 * kU) * kU;
 constexpr double kBound2 = (2 + 16 * kU) * kU;
-constexpr double kUnderflow = 0x1p-1072;
+constexpr double kUnderflow = 0x1p-1000;
+
+// Apart, and never inlined: its frame is large, and the filter that calls it is short.
+[[gnu::noinline]] int decide_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                         const Eigen::Vector3d& c) {
+  if (a.isZero(0) || b.isZero(0) || c.isZero(0)) return 0;
+  return Kernel().orientation_3_object()(vector(a), vector(b), vector(c));
+}
 
 }  // namespace
 
@@ -65,8 +73,7 @@ int sign_of_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   const double bound = kBound3 * permanent + kUnderflow * (ax + ay + az + 2);
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
-  if (a.isZero(0) || b.isZero(0) || c.isZero(0)) return 0;
-  return Kernel().orientation_3_object()(vector(a), vector(b), vector(c));
+  return decide_determinant(a, b, c);
 }
 
 int sign_of_determinant(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
