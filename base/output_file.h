@@ -5,7 +5,8 @@
 namespace tetraglass::base {
 
 /// A file that appears whole or not at all: everything is written to `temporary_path()` in the same
-/// folder (same extension), and `commit()` renames it over `path`. Without a commit the destructor removes it.
+/// folder (same extension), and `commit()` renames it over `path`. Without a commit the destructor
+/// removes it.
 class OutputFile {
  public:
   /// Throws WriteError where the folder does not exist or cannot be written to.

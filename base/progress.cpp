@@ -1,11 +1,10 @@
 #include "base/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace tetraglass::base {
 namespace {
@@ -37,10 +36,11 @@ void Progress::draw(std::uint64_t done) {
   if (total_ == 0) {
     fmt::print(stderr, "\r\033[K{} {:.0f} s", label_, seconds);
   } else {
-    const double part = std::clamp(static_cast<double>(done) / static_cast<double>(total_), 1e-9, 1.0);
+    const double part =
+        std::clamp(static_cast<double>(done) / static_cast<double>(total_), 1e-9, 1.0);
     const int bars = static_cast<int>(part * 30);
-    fmt::print(stderr, "\r\033[K{} [{:<30}] {:3.0f} % {:.0f} s left", label_, std::string(bars, '='),
-               100 * part, seconds * (1 - part) / part);
+    fmt::print(stderr, "\r\033[K{} [{:<30}] {:3.0f} % {:.0f} s left", label_,
+               std::string(bars, '='), 100 * part, seconds * (1 - part) / part);
   }
   std::fflush(stderr);
 }

@@ -8,8 +8,8 @@
 
 namespace tetraglass::base {
 
-/// A progress bar with the time left on stderr, for work that lasts over a second; nothing is printed
-/// where stderr is no terminal. `advance` may be called from several threads at once.
+/// A progress bar with the time left on stderr, for work that lasts over a second; nothing is
+/// printed where stderr is no terminal. `advance` may be called from several threads at once.
 class Progress {
  public:
   /// `total` is the number of steps; 0 means unknown: only the elapsed time is shown.

@@ -35,15 +35,15 @@ std::size_t edit_distance(std::string_view a_text, std::string_view b_text) {
   return d[a.size()][b.size()];
 }
 
-std::vector<std::string> nearest_names(std::string_view wrong, const std::vector<std::string>& known,
-                                       std::size_t count) {
+std::vector<std::string> nearest_names(std::string_view wrong,
+                                       const std::vector<std::string>& known, std::size_t count) {
   const std::string typed = lower(wrong);
   std::vector<std::pair<std::size_t, std::string>> ranked;
   for (const std::string& name : known) {
     const std::string candidate = lower(name);
-    const bool contains = !typed.empty() && !candidate.empty() &&
-                          (candidate.find(typed) != std::string::npos ||
-                           typed.find(candidate) != std::string::npos);
+    const bool contains =
+        !typed.empty() && !candidate.empty() &&
+        (candidate.find(typed) != std::string::npos || typed.find(candidate) != std::string::npos);
     const std::size_t distance = edit_distance(typed, candidate);
     if (contains) {
       ranked.emplace_back(0, name);
@@ -54,7 +54,8 @@ std::vector<std::string> nearest_names(std::string_view wrong, const std::vector
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> result;
-  for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i) result.push_back(ranked[i].second);
+  for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i)
+    result.push_back(ranked[i].second);
   return result;
 }
 
@@ -67,9 +68,11 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   if (known.empty()) return "; there are none";
   constexpr std::size_t kMost = 20;
   const bool all = known.size() <= kMost;
-  return fmt::format("; there are: {}{}",
-                     fmt::join(known.begin(), known.begin() + static_cast<long>(std::min(kMost, known.size())), ", "),
-                     all ? "" : ", ...");
+  return fmt::format(
+      "; there are: {}{}",
+      fmt::join(known.begin(), known.begin() + static_cast<long>(std::min(kMost, known.size())),
+                ", "),
+      all ? "" : ", ...");
 }
 
 }  // namespace tetraglass::base

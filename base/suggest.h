@@ -6,12 +6,13 @@
 
 namespace tetraglass::base {
 
-/// The number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
-/// (optimal string alignment), ignoring case.
+/// The number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into
+/// `b` (optimal string alignment), ignoring case.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// Up to `count` of `known` that a person who typed `wrong` may have meant, nearest first: names that
-/// contain it or that it contains, then names at an edit distance of at most a third of its length + 1.
+/// Up to `count` of `known` that a person who typed `wrong` may have meant, nearest first: names
+/// that contain it or that it contains, then names at an edit distance of at most a third of its
+/// length + 1.
 [[nodiscard]] std::vector<std::string> nearest_names(std::string_view wrong,
                                                      const std::vector<std::string>& known,
                                                      std::size_t count = 3);

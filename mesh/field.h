@@ -15,7 +15,9 @@ struct Field {
   int components = 1;
   std::vector<double> values;  ///< `components` values for each point or cell, interleaved
 
-  [[nodiscard]] std::size_t tuples() const { return values.size() / static_cast<std::size_t>(components); }
+  [[nodiscard]] std::size_t tuples() const {
+    return values.size() / static_cast<std::size_t>(components);
+  }
 };
 
 /// One number per point (linear in each tetrahedron) or per cell (constant in each tetrahedron).

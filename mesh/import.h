@@ -19,11 +19,12 @@ struct ImportOptions {
 struct ImportReport {
   std::map<CellType, std::size_t> input_cells;  ///< as in the file
   std::size_t input_points = 0;
-  std::size_t skipped = 0;            ///< cells of dimension < 3 in a file that has cells of dimension 3
-  std::size_t inverted = 0;           ///< tetrahedra that were negatively oriented, now turned
-  std::vector<std::string> notes;     ///< one line each: assumptions, parts left out, tetrahedralizer used
+  std::size_t skipped = 0;   ///< cells of dimension < 3 in a file that has cells of dimension 3
+  std::size_t inverted = 0;  ///< tetrahedra that were negatively oriented, now turned
+  std::vector<std::string>
+      notes;  ///< one line each: assumptions, parts left out, tetrahedralizer used
   double read_ms = 0;
-  double decompose_ms = 0;            ///< splitting into tetrahedra, or tetrahedralizing
+  double decompose_ms = 0;  ///< splitting into tetrahedra, or tetrahedralizing
 };
 
 struct Import {
@@ -31,11 +32,12 @@ struct Import {
   ImportReport report;
 };
 
-/// Reads `file` (its format is told by its extension), and makes tetrahedra of it: cells of dimension 3 are split; a closed
-/// surface is filled (TetGen); points alone get their Delaunay tetrahedra (CGAL). A mesh made from a surface or from points
-/// carries the point field `distance` (to its boundary) unless the input's own fields could be carried over.
-/// Throws ReadError (missing, truncated, unknown extension, no cells), InputError (open or self-intersecting surface),
-/// UnavailableError (a library that this build lacks).
+/// Reads `file` (its format is told by its extension), and makes tetrahedra of it: cells of
+/// dimension 3 are split; a closed surface is filled (TetGen); points alone get their Delaunay
+/// tetrahedra (CGAL). A mesh made from a surface or from points carries the point field `distance`
+/// (to its boundary) unless the input's own fields could be carried over. Throws ReadError
+/// (missing, truncated, unknown extension, no cells), InputError (open or self-intersecting
+/// surface), UnavailableError (a library that this build lacks).
 [[nodiscard]] Import import_mesh(const std::string& file, const ImportOptions& options = {});
 
 /// The extensions that `import_mesh` reads, with the dot, lower case.

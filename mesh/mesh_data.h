@@ -44,13 +44,22 @@ enum class CellType : std::uint8_t {
   biquadratic_quadratic_wedge = 32,
   biquadratic_quadratic_hexahedron = 33,
   biquadratic_triangle = 34,
+  triquadratic_pyramid = 37,
   polyhedron = 42,
+  lagrange_curve = 68,
   lagrange_triangle = 69,
   lagrange_quad = 70,
   lagrange_tetra = 71,
   lagrange_hexahedron = 72,
   lagrange_wedge = 73,
   lagrange_pyramid = 74,
+  bezier_curve = 75,
+  bezier_triangle = 76,
+  bezier_quad = 77,
+  bezier_tetra = 78,
+  bezier_hexahedron = 79,
+  bezier_wedge = 80,
+  bezier_pyramid = 81,
 };
 
 /// The name of a cell type as `info` prints it ("tetra", "hexahedron", ...; "type 99" if unknown).
@@ -63,8 +72,10 @@ enum class CellType : std::uint8_t {
 struct MeshData {
   std::vector<Eigen::Vector3d> points;
   std::vector<CellType> types;
-  std::vector<std::uint64_t> offsets{0};    ///< cell i owns connectivity[offsets[i] .. offsets[i + 1])
-  std::vector<std::uint32_t> connectivity;  ///< point indices; of a polyhedron: (faces, (n, n points) per face)
+  std::vector<std::uint64_t> offsets{
+      0};  ///< cell i owns connectivity[offsets[i] .. offsets[i + 1])
+  std::vector<std::uint32_t>
+      connectivity;  ///< point indices; of a polyhedron: (faces, (n, n points) per face)
   std::vector<Field> fields;
   std::vector<std::string> notes;  ///< what a reader had to leave out or assume, a line each
 

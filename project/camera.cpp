@@ -9,7 +9,9 @@
 namespace tetraglass::project {
 namespace {
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
 
 }  // namespace
 
@@ -32,19 +34,22 @@ Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direc
 Frame::Frame(const Camera& camera, int width, int height)
     : parallel_(camera.parallel), width_(width), height_(height), eye_(camera.eye) {
   const auto finite = [](const Eigen::Vector3d& v) { return v.array().isFinite().all(); };
-  if (width < 1 || height < 1) throw base::UsageError("the picture needs at least one pixel each way");
+  if (width < 1 || height < 1)
+    throw base::UsageError("the picture needs at least one pixel each way");
   if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
     throw base::UsageError("the camera's eye, target and up must be finite numbers");
   }
   const Eigen::Vector3d gaze = camera.target - camera.eye;
-  if (!(gaze.stableNorm() > 0)) throw base::UsageError("the camera's eye and target are the same point");
+  if (!(gaze.stableNorm() > 0))
+    throw base::UsageError("the camera's eye and target are the same point");
   const Eigen::Vector3d away = gaze.stableNormalized();
   const Eigen::Vector3d right = away.cross(camera.up.stableNormalized());
-  // Below this sine the rounding of the cross product (3 ulp of the operands) would turn the picture
-  // by more than a 16,384th of a radian, a pixel in the widest image.
+  // Below this sine the rounding of the cross product (3 ulp of the operands) would turn the
+  // picture by more than a 16,384th of a radian, a pixel in the widest image.
   constexpr double kSmallestSine = 16384 * 3 * 2.3e-16;
   if (!(right.norm() > kSmallestSine)) {
-    throw base::UsageError("the camera's up direction is parallel to the view; choose another --up");
+    throw base::UsageError(
+        "the camera's up direction is parallel to the view; choose another --up");
   }
   axes_.row(0) = right.normalized();
   axes_.row(1) = right.normalized().cross(away);

@@ -13,12 +13,12 @@ struct Camera {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   bool parallel = false;
-  double fov_degrees = 30;    ///< vertical, perspective only
-  double ortho_height = 1;    ///< height of the picture in world units, parallel only
+  double fov_degrees = 30;  ///< vertical, perspective only
+  double ortho_height = 1;  ///< height of the picture in world units, parallel only
 };
 
-/// A camera that sees all of `box` from `direction` (from the target towards the eye; need not be unit length), in a picture of
-/// the given aspect (width / height).
+/// A camera that sees all of `box` from `direction` (from the target towards the eye; need not be
+/// unit length), in a picture of the given aspect (width / height).
 [[nodiscard]] Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
                                   const Eigen::Vector3d& up, double fov_degrees, double aspect);
 
@@ -26,24 +26,28 @@ struct Camera {
 /// Camera space: x right, y up, z *away* from the viewer (depth), origin at the eye.
 class Frame {
  public:
-  /// Throws UsageError where eye and target coincide, up is parallel to the view, an angle is not in (0, 180), a size
-  /// is not positive or a number not finite.
+  /// Throws UsageError where eye and target coincide, up is parallel to the view, an angle is not
+  /// in (0, 180), a size is not positive or a number not finite.
   Frame(const Camera& camera, int width, int height);
 
-  /// Image plane coordinates of the centre of pixel (x, y), at unit distance (perspective) or in world units (parallel).
+  /// Image plane coordinates of the centre of pixel (x, y), at unit distance (perspective) or in
+  /// world units (parallel).
   [[nodiscard]] Eigen::Vector2d image_plane(double x, double y) const {
     return {(2 * (x + 0.5) / width_ - 1) * half_height_ * width_ / height_,
             (1 - 2 * (y + 0.5) / height_) * half_height_};
   }
-  /// The pixel position (x, y), fractional, whose centre has these image plane coordinates: inverse of `image_plane`.
+  /// The pixel position (x, y), fractional, whose centre has these image plane coordinates: inverse
+  /// of `image_plane`.
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector2d& plane) const {
     return {(plane.x() / (half_height_ * width_ / height_) + 1) * width_ / 2 - 0.5,
             (1 - plane.y() / half_height_) * height_ / 2 - 0.5};
   }
-  [[nodiscard]] Eigen::Vector3d to_camera(const Eigen::Vector3d& world) const { return axes_ * (world - eye_); }
+  [[nodiscard]] Eigen::Vector3d to_camera(const Eigen::Vector3d& world) const {
+    return axes_ * (world - eye_);
+  }
 
-  /// A ray's origin and direction in camera space: the eye and (u, v, 1) in perspective (so that the ray parameter is the
-  /// depth), the point (u, v, 0) and (0, 0, 1) in parallel views.
+  /// A ray's origin and direction in camera space: the eye and (u, v, 1) in perspective (so that
+  /// the ray parameter is the depth), the point (u, v, 0) and (0, 0, 1) in parallel views.
   [[nodiscard]] Eigen::Vector3d ray_origin(const Eigen::Vector2d& plane) const {
     return parallel_ ? Eigen::Vector3d(plane.x(), plane.y(), 0) : Eigen::Vector3d::Zero();
   }

@@ -29,14 +29,15 @@ struct Plan {
   SortMethod sort = SortMethod::none;
   Integrator integrator = Integrator::exact;
   ContextKind context = ContextKind::none;
-  int table_n = 0;   ///< 0: no table
-  int table_m = 0;   ///< 0: no length axis
-  bool gradients = false;  ///< per-vertex gradients are computed (smooth shading)
+  int table_n = 0;                   ///< 0: no table
+  int table_m = 0;                   ///< 0: no length axis
+  bool gradients = false;            ///< per-vertex gradients are computed (smooth shading)
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };
 
 /// Chooses the way to draw the scene. Pure: depends on nothing but its arguments.
-/// Throws UsageError where the request contradicts the scene (unsorted `full`, a projector that lacks what is asked for).
+/// Throws UsageError where the request contradicts the scene (unsorted `full`, a projector that
+/// lacks what is asked for).
 [[nodiscard]] Plan plan(const Scene& scene, const Request& request);
 
 [[nodiscard]] std::string to_string(Projector projector);

@@ -7,9 +7,9 @@
 
 namespace tetraglass::project {
 
-/// Draws the scene by the plan's projector and adds what it took to `stats`. Every projector gives the same picture
-/// within the tolerance that the tests state.
-/// Throws UnavailableError where the plan's context cannot be had, UsageError for a camera that sees nothing.
+/// Draws the scene by the plan's projector and adds what it took to `stats`. Every projector gives
+/// the same picture within the tolerance that the tests state. Throws UnavailableError where the
+/// plan's context cannot be had, UsageError for a camera that sees nothing.
 [[nodiscard]] Image render(const Scene& scene, const Plan& plan, Stats& stats);
 
 }  // namespace tetraglass::project

@@ -6,28 +6,38 @@ namespace tetraglass::project {
 
 std::string to_string(Mode mode) {
   switch (mode) {
-    case Mode::full: return "full";
-    case Mode::emission: return "emission";
-    case Mode::absorption: return "absorption";
-    case Mode::mip: return "mip";
-    case Mode::iso: return "iso";
-    case Mode::thickness: return "thickness";
+    case Mode::full:
+      return "full";
+    case Mode::emission:
+      return "emission";
+    case Mode::absorption:
+      return "absorption";
+    case Mode::mip:
+      return "mip";
+    case Mode::iso:
+      return "iso";
+    case Mode::thickness:
+      return "thickness";
   }
   return "";
 }
 
 std::string to_string(Shading shading) {
   switch (shading) {
-    case Shading::none: return "none";
-    case Shading::flat: return "flat";
-    case Shading::smooth: return "smooth";
+    case Shading::none:
+      return "none";
+    case Shading::flat:
+      return "flat";
+    case Shading::smooth:
+      return "smooth";
   }
   return "";
 }
 
 bool is_commutative(const Scene& scene) {
   switch (scene.mode) {
-    case Mode::full: return false;
+    case Mode::full:
+      return false;
     // The nearest opaque surface wins by its depth alone; translucent ones are blended in order.
     case Mode::iso:
       return std::all_of(scene.isosurfaces.begin(), scene.isosurfaces.end(),
@@ -35,7 +45,8 @@ bool is_commutative(const Scene& scene) {
     case Mode::emission:
     case Mode::absorption:
     case Mode::mip:
-    case Mode::thickness: return true;
+    case Mode::thickness:
+      return true;
   }
   return false;
 }

@@ -18,7 +18,7 @@ enum class Shading { none, flat, smooth };
 struct Scene {
   const mesh::TetMesh* mesh = nullptr;  ///< outlives the scene
   mesh::ScalarField field;
-  mesh::Drawable drawable;              ///< the cells that can be drawn, for this field
+  mesh::Drawable drawable;  ///< the cells that can be drawn, for this field
   preint::TransferFunction transfer_function{{preint::ControlPoint{}}};
   Mode mode = Mode::full;
   MipOf mip_of = MipOf::field;

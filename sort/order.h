@@ -8,7 +8,8 @@
 
 namespace tetraglass::sort {
 
-/// Where the eye is. Perspective: a point; parallel: all rays run along `direction` (away from the viewer).
+/// Where the eye is. Perspective: a point; parallel: all rays run along `direction` (away from the
+/// viewer).
 struct View {
   bool parallel = false;
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();

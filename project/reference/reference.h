@@ -11,10 +11,11 @@
 
 namespace tetraglass::project {
 
-/// The judge of every other projector: double precision, one ray at a time, brute force over the cells that a ray can
-/// meet, exact order, segments integrated to 1e-12 (preint::integrate_full). Decides with exact predicates which faces a
-/// ray meets; rays through edges and vertices are decided as if moved by an infinitesimal step to the right and up, so
-/// neighbouring cells never disagree.
+/// The judge of every other projector: double precision, one ray at a time, brute force over the
+/// cells that a ray can meet, exact order, segments integrated to 1e-12 (preint::integrate_full).
+/// Decides with exact predicates which faces a ray meets; rays through edges and vertices are
+/// decided as if moved by an infinitesimal step to the right and up, so neighbouring cells never
+/// disagree.
 [[nodiscard]] Image render_reference(const Scene& scene, Stats& stats);
 
 /// The same for single pixels (x, y): RGBA each.

@@ -27,10 +27,10 @@ inline mesh::TetMesh unit_tetrahedron(const FieldFunction& f = [](const auto&) {
   return mesh;
 }
 
-/// The box [low, high] cut into nx x ny x nz bricks of 6 tetrahedra each (all around the main diagonal of the brick), with the
-/// point field "s".
-inline mesh::TetMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, int nx, int ny, int nz,
-                         const FieldFunction& f) {
+/// The box [low, high] cut into nx x ny x nz bricks of 6 tetrahedra each (all around the main
+/// diagonal of the brick), with the point field "s".
+inline mesh::TetMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, int nx, int ny,
+                         int nz, const FieldFunction& f) {
   mesh::TetMesh mesh;
   for (int k = 0; k <= nz; ++k) {
     for (int j = 0; j <= ny; ++j) {
@@ -40,8 +40,11 @@ inline mesh::TetMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high
       }
     }
   }
-  const auto at = [&](int i, int j, int k) { return static_cast<std::uint32_t>((k * (ny + 1) + j) * (nx + 1) + i); };
-  constexpr std::array<std::array<int, 3>, 6> kPaths = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  const auto at = [&](int i, int j, int k) {
+    return static_cast<std::uint32_t>((k * (ny + 1) + j) * (nx + 1) + i);
+  };
+  constexpr std::array<std::array<int, 3>, 6> kPaths = {
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   for (int k = 0; k < nz; ++k) {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
@@ -53,7 +56,8 @@ inline mesh::TetMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high
             ++step[static_cast<std::size_t>(kPaths[path][corner])];
             cell[corner + 1] = at(step[0], step[1], step[2]);
           }
-          if (path >= 3) std::swap(cell[1], cell[2]);  // the odd permutations run the other way round
+          if (path >= 3)
+            std::swap(cell[1], cell[2]);  // the odd permutations run the other way round
           mesh.cells.push_back(cell);
         }
       }

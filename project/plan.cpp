@@ -1,0 +1,154 @@
+#include "project/plan.h"
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+
+namespace tetraglass::project {
+namespace {
+
+// A 2D table of this size costs a few milliseconds, a 3D one about a second by brute force.
+constexpr int kTable2dSize = 512;
+constexpr int kTable3dSize = 128;
+constexpr int kTable3dLengths = 64;
+
+// The largest a texture may be on every context that is supported (OSMesa: 3D textures to 2048).
+constexpr int kLargestTable2d = 8192;
+constexpr int kLargestTable3d = 512;
+
+bool needs_integral(const Scene& scene) {
+  const bool field_maximum = scene.mode == Mode::mip && scene.mip_of == MipOf::field;
+  return !field_maximum && scene.mode != Mode::thickness;
+}
+
+void plan_order(const Scene& scene, const Request& request, Plan& plan) {
+  const std::string mode = to_string(scene.mode);
+  if (plan.projector == Projector::reference) {
+    if (request.sort && *request.sort != SortMethod::fragments) {
+      throw base::UsageError(
+          "the reference projector has one order only, exact at every pixel; leave out --sort " +
+          to_string(*request.sort) + " or use --projector gl");
+    }
+    plan.sort = SortMethod::fragments;
+    plan.reasons.emplace_back("order: fragments, exact at every pixel (reference)");
+    return;
+  }
+  if (request.sort == SortMethod::fragments) {
+    throw base::UsageError("--sort fragments needs --projector reference");
+  }
+  const bool commutative = is_commutative(scene);
+  if (!commutative && request.sort == SortMethod::none) {
+    throw base::UsageError(
+        "mode " + mode +
+        " depends on the order of the cells: --sort none would draw a wrong "
+        "picture; use --sort centroid, or a mode that needs no order (emission, mip, ...)");
+  }
+  plan.sort = request.sort.value_or(commutative ? SortMethod::none : SortMethod::centroid);
+  plan.reasons.push_back(plan.sort == SortMethod::none
+                             ? fmt::format("order: none, mode {} does not depend on it", mode)
+                             : fmt::format("order: centroid, approximate; mode {} {}", mode,
+                                           commutative ? "does not need it, it was asked for"
+                                                       : "blends cells back to front"));
+}
+
+void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
+  if (!needs_integral(scene)) {
+    if (request.integrator && *request.integrator != Integrator::exact) {
+      throw base::UsageError(
+          fmt::format("mode {} integrates no transfer function: --integrator {} has nothing to do",
+                      to_string(scene.mode), to_string(*request.integrator)));
+    }
+    plan.reasons.push_back("integrator: none needed for mode " + to_string(scene.mode));
+    return;
+  }
+  plan.integrator = request.integrator.value_or(Integrator::exact);
+  if (plan.integrator == Integrator::exact) {
+    if (request.table_n != 0)
+      throw base::UsageError("--table needs --integrator table2d or table3d");
+    plan.reasons.emplace_back("integrator: exact per segment, no table");
+    return;
+  }
+  if (plan.projector == Projector::reference) {
+    throw base::UsageError(
+        "the reference projector integrates exactly; tables need --projector gl");
+  }
+  const bool wants_3d = scene.mode == Mode::full;
+  if (wants_3d != (plan.integrator == Integrator::table3d)) {
+    throw base::UsageError(fmt::format(
+        "mode {} has a {} table: use --integrator {}", to_string(scene.mode),
+        wants_3d ? "three-dimensional" : "two-dimensional", wants_3d ? "table3d" : "table2d"));
+  }
+  plan.table_n = request.table_n != 0 ? request.table_n : (wants_3d ? kTable3dSize : kTable2dSize);
+  if (wants_3d) plan.table_m = request.table_m != 0 ? request.table_m : kTable3dLengths;
+  const int largest = wants_3d ? kLargestTable3d : kLargestTable2d;
+  if (plan.table_n < 2 || plan.table_n > largest ||
+      (wants_3d && (plan.table_m < 2 || plan.table_m > largest))) {
+    throw base::UsageError(fmt::format("--table sizes must lie between 2 and {} here", largest));
+  }
+  plan.reasons.push_back(wants_3d
+                             ? fmt::format("integrator: table of {0} x {0} values x {1} lengths",
+                                           plan.table_n, plan.table_m)
+                             : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
+}
+
+}  // namespace
+
+Plan plan(const Scene& scene, const Request& request) {
+  Plan plan;
+  plan.projector = request.projector.value_or(Projector::gl);
+  plan.reasons.push_back(
+      plan.projector == Projector::gl
+          ? "projector: gl, cell projection in float"
+          : "projector: reference, double precision, one ray at a time: slow, judges the others");
+  if (plan.projector == Projector::gl) {
+    plan.context = request.context.value_or(ContextKind::osmesa);
+    plan.reasons.push_back("context: " + to_string(plan.context) + ", needs no display and no GPU");
+  } else if (request.context) {
+    throw base::UsageError("--context is for --projector gl");
+  }
+  if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
+    throw base::UsageError(
+        "field '" + scene.field.name +
+        "' is constant in each cell and has no isosurface; choose a point field (see 'info')");
+  }
+  plan_order(scene, request, plan);
+  plan_integrator(scene, request, plan);
+  plan.gradients = scene.shading == Shading::smooth;
+  plan.reasons.push_back("shading: " + to_string(scene.shading) +
+                         (plan.gradients ? ", one gradient per vertex" : ", no gradients stored"));
+  return plan;
+}
+
+std::string to_string(Projector projector) {
+  return projector == Projector::gl ? "gl" : "reference";
+}
+
+std::string to_string(SortMethod sort) {
+  switch (sort) {
+    case SortMethod::none:
+      return "none";
+    case SortMethod::centroid:
+      return "centroid";
+    case SortMethod::fragments:
+      return "fragments";
+  }
+  return "";
+}
+
+std::string to_string(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::exact:
+      return "exact";
+    case Integrator::table2d:
+      return "table2d";
+    case Integrator::table3d:
+      return "table3d";
+  }
+  return "";
+}
+
+std::string to_string(ContextKind context) {
+  return context == ContextKind::osmesa ? "osmesa" : "none";
+}
+
+}  // namespace tetraglass::project

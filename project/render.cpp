@@ -1,0 +1,18 @@
+#include "project/render.h"
+
+#include "project/gl/gl_projector.h"
+#include "project/reference/reference.h"
+
+namespace tetraglass::project {
+
+Image render(const Scene& scene, const Plan& plan, Stats& stats) {
+  switch (plan.projector) {
+    case Projector::gl:
+      return render_gl(scene, plan, stats);
+    case Projector::reference:
+      return render_reference(scene, stats);
+  }
+  return {};
+}
+
+}  // namespace tetraglass::project

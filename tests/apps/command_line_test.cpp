@@ -1,0 +1,236 @@
+// The command line's contract, by running the built program.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "project/image_file.h"
+#include "tests/support/data.h"
+#include "tests/support/program.h"
+
+namespace tetraglass::tests {
+namespace {
+
+using Json = nlohmann::json;
+
+class CommandLine : public testing::Test {
+ protected:
+  /// A small sphere sample, made once.
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const ProgramRun made =
+        run_program("sample sphere --cells 3000 -o " + folder_->file("sphere.vtu"));
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(made.out, folder_->file("sphere.vtu") + "\n");
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+
+  static std::string sphere() { return folder_->file("sphere.vtu"); }
+
+  /// The program fails with this status and one line that holds `part`.
+  static void expect_error(const std::string& arguments, int status, const std::string& part) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.status, status) << arguments << "\n" << run.err;
+    const std::string prefix = "tetraglass: error: ";
+    const std::size_t start = run.err.find(prefix);
+    ASSERT_NE(start, std::string::npos) << arguments << "\n" << run.err;
+    const std::string line = run.err.substr(start, run.err.find('\n', start) - start);
+    EXPECT_NE(line.find(part), std::string::npos) << arguments << "\n" << run.err;
+    if (status == 1) {
+      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+    EXPECT_EQ(run.out, "") << arguments;
+  }
+
+  TemporaryFolder output_;
+
+ private:
+  static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* CommandLine::folder_ = nullptr;
+
+TEST_F(CommandLine, RendersEveryModeToEveryFormat) {
+  for (const std::string mode : {"full", "emission", "absorption", "mip", "iso", "thickness"}) {
+    const std::string base = output_.file(mode);
+    const ProgramRun run = run_program("render " + sphere() + " --size 48x40 --mode " + mode +
+                                       " -o " + base + ".png -o " + base + ".exr -o " + base +
+                                       ".npy --stats " + base + ".json --verify 50");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, base + ".png\n" + base + ".exr\n" + base + ".npy\n");
+    const project::ReadImage exr = project::read_image(base + ".exr");
+    const project::ReadImage npy = project::read_image(base + ".npy");
+    EXPECT_EQ(exr.image.width, 48);
+    EXPECT_EQ(exr.image.height, 40);
+    EXPECT_EQ(exr.image.rgba, npy.image.rgba);
+    EXPECT_TRUE(project::read_image(base + ".png").encoded);
+    EXPECT_TRUE(std::any_of(npy.image.rgba.begin(), npy.image.rgba.end(), [](float v) {
+      return v != 0;
+    })) << mode;
+    EXPECT_TRUE(std::all_of(npy.image.rgba.begin(), npy.image.rgba.end(),
+                            [](float v) { return std::isfinite(v); }));
+    const Json stats = Json::parse(read_text(base + ".json"));
+    for (const std::string stage : {"read", "decompose", "tables", "sort", "project", "write"}) {
+      EXPECT_TRUE(stats["stages_ms"][stage].is_number()) << stage;
+    }
+    for (const std::string key : {"cells", "fragments", "threads", "peak_bytes"}) {
+      EXPECT_GT(stats[key].get<double>(), 0) << key;
+    }
+    EXPECT_EQ(stats["cells_skipped"]["degenerate"], 0);
+    EXPECT_EQ(stats["cells_skipped"]["nan"], 0);
+    EXPECT_EQ(stats["sort"]["method"], mode == "full" ? "centroid" : "none");
+    EXPECT_EQ(stats["sort"]["exact"], mode != "full");
+    EXPECT_EQ(stats["projector"], "gl");
+    EXPECT_TRUE(stats["plan"].is_array());
+    EXPECT_EQ(stats["verified"]["pixels"], 50);
+    // Cells sorted by their centroids are not in exact order; every other mode is exact but for
+    // rounding to float.
+    EXPECT_LT(stats["verified"]["max_error"].get<double>(), mode == "full" ? 0.05 : 1e-3) << mode;
+  }
+}
+
+TEST_F(CommandLine, CompareMeasuresTwoPictures) {
+  const std::string a = output_.file("a.npy");
+  const std::string b = output_.file("b.npy");
+  ASSERT_EQ(run_program("render " + sphere() + " --size 32x32 -o " + a).status, 0);
+  ASSERT_EQ(
+      run_program("render " + sphere() + " --size 32x32 --projector reference -o " + b).status, 0);
+  const ProgramRun run =
+      run_program("compare " + a + " " + b + " --json -o " + output_.file("d.png"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["pixels"], 32 * 32);
+  EXPECT_GT(json["max"].get<double>(), 0);
+  EXPECT_GE(json["max"].get<double>(), json["rms"].get<double>());
+  EXPECT_TRUE(json["worst"]["x"].is_number_integer());
+  const Json same = Json::parse(run_program("compare " + a + " " + a + " --json").out);
+  EXPECT_EQ(same["max"], 0);
+  expect_error("compare " + a + " " + sphere(), 1, "no picture format");
+  expect_error("compare " + a + " nothing.png", 1, "nothing.png");
+}
+
+TEST_F(CommandLine, ImportAndInfoAgree) {
+  const std::string copy = output_.file("copy.vtu");
+  const ProgramRun imported = run_program("import " + sphere() + " -o " + copy);
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_EQ(imported.out, copy + "\n");
+  const Json a = Json::parse(run_program("info --json " + sphere()).out);
+  Json b = Json::parse(run_program("info --json " + copy).out);
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(a["cells"]["tetra"], a["tetrahedra"]);
+  for (const std::string key :
+       {"points", "fields", "bounds", "degenerate", "inverted", "nan_values", "parts",
+        "boundary_faces", "convex", "delaunay", "quality"}) {
+    EXPECT_TRUE(a.contains(key)) << key;
+  }
+  EXPECT_EQ(a["convex"], true);
+  EXPECT_EQ(a["parts"], 1);
+  EXPECT_EQ(a["bounds"].size(), 6U);
+  EXPECT_EQ(a["fields"][0]["location"], "point");
+  EXPECT_GT(a["quality"]["min_dihedral_deg"].get<double>(), 0);
+  EXPECT_NE(run_program("info " + sphere()).out.find("tetrahedra"), std::string::npos);
+}
+
+TEST_F(CommandLine, ErrorsSayWhichFileAndLeaveNothing) {
+  const std::string out = " -o " + output_.file("x.png");
+  expect_error("render nothing.vtu" + out, 1, "nothing.vtu");
+  write_text(output_.file("empty.vtu"), "");
+  expect_error("render " + output_.file("empty.vtu") + out, 1, "empty.vtu");
+  write_text(output_.file("junk.vtu"), "this is no mesh\n");
+  expect_error("render " + output_.file("junk.vtu") + out, 1, "junk.vtu");
+  const std::string whole = read_text(sphere());
+  write_text(output_.file("cut.vtu"), whole.substr(0, whole.size() / 2));
+  expect_error("render " + output_.file("cut.vtu") + out, 1, "cut.vtu");
+  write_text(output_.file("mesh.vtx"), whole);
+  expect_error("render " + output_.file("mesh.vtx") + out, 1, ".vtu");
+  expect_error("render " + sphere() + " --field sfere" + out, 1, "'sphere'");
+  expect_error("render " + sphere() + " -o " + output_.file("x.jpg"), 1, ".png");
+  expect_error("render " + sphere() + " -o " + output_.file("none/x.png"), 1, "none");
+  expect_error("render " + sphere() + " --tf nothing.json" + out, 1, "nothing.json");
+  for (const std::string name : {"empty.vtu", "junk.vtu", "cut.vtu", "mesh.vtx"})
+    ::unlink(output_.file(name).c_str());
+  EXPECT_TRUE(output_.is_empty());
+}
+
+TEST_F(CommandLine, UnwritableOutputIsAnErrorBeforeTheWork) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  ::chmod(output_.file("").c_str(), 0500);
+  expect_error("render " + sphere() + " -o " + output_.file("x.png"), 1, "x.png");
+  ::chmod(output_.file("").c_str(), 0700);
+}
+
+TEST_F(CommandLine, WrongUsageShowsTheRightOne) {
+  const std::string out = " -o " + output_.file("x.png");
+  expect_error("", 2, "");
+  expect_error("rendr x", 2, "'render'");
+  expect_error("render", 2, "INPUT");
+  expect_error("render " + sphere(), 2, "--output");
+  expect_error("render " + sphere() + out + " --feild x", 2, "'--field'");
+  expect_error("render " + sphere() + out + " --mode emmission", 2, "'emission'");
+  expect_error("render " + sphere() + out + " --tf viridiss", 2, "'viridis'");
+  expect_error("render " + sphere() + out + " --size 5", 2, "--size");
+  expect_error("render " + sphere() + out + " --eye 0,0", 2, "--eye");
+  expect_error("render " + sphere() + out + " --sort none", 2, "--sort");
+  expect_error("render " + sphere() + out + " --fov 200", 2, "--fov");
+  expect_error("render " + sphere() + out + " --eye 0,0,9 --target 0,0,9", 2, "eye and target");
+  expect_error("sample orbitl -o " + output_.file("x.vtu"), 2, "'orbital'");
+  EXPECT_TRUE(output_.is_empty());
+}
+
+TEST_F(CommandLine, HelpAndVersion) {
+  EXPECT_EQ(run_program("--help").status, 0);
+  const ProgramRun help = run_program("render --help");
+  EXPECT_EQ(help.status, 0);
+  for (const std::string option : {"--mode", "--isovalue", "--ortho", "--verify", "--stats"}) {
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  }
+  const ProgramRun version = run_program("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_NE(version.out.find("BSD-3-Clause"), std::string::npos);
+}
+
+TEST_F(CommandLine, NegativeNumbersAreValuesNotOptions) {
+  const ProgramRun run =
+      run_program("render " + sphere() +
+                  " --size 16x16 --view -z --up -1,0,0 --isovalue -5 --isovalue 0.5 "
+                  "--mode iso -o " +
+                  output_.file("x.png"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("isovalue -5 lies outside"), std::string::npos) << run.err;
+}
+
+TEST_F(CommandLine, ExplainPrintsThePlan) {
+  const ProgramRun run = run_program(
+      "render " + sphere() + " --size 16x16 --mode emission --explain -o " + output_.file("x.png"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("order: none"), std::string::npos) << run.out;
+}
+
+// The paper's number of cells; the singular line's cells without volume are counted, not drawn.
+TEST_F(CommandLine, BluntFinHasThePapersCells) {
+  SKIP_WITHOUT_DATA();
+  const std::string fin = (data_folder() / "classics" / "bluntfinxyz.bin").string();
+  const Json info = Json::parse(run_program("info --json " + fin).out);
+  EXPECT_EQ(info["tetrahedra"], 224874);
+  EXPECT_EQ(info["cells"]["hexahedron"], 37479);
+  EXPECT_GT(info["degenerate"].get<int>(), 0);
+  const std::string picture = output_.file("fin.npy");
+  const ProgramRun run = run_program("render " + fin + " --size 64x64 -o " + picture + " --stats " +
+                                     output_.file("fin.json"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json stats = Json::parse(read_text(output_.file("fin.json")));
+  EXPECT_EQ(stats["cells"], 224874);
+  EXPECT_EQ(stats["cells_skipped"]["degenerate"], info["degenerate"]);
+  const project::Image image = project::read_image(picture).image;
+  EXPECT_TRUE(
+      std::all_of(image.rgba.begin(), image.rgba.end(), [](float v) { return std::isfinite(v); }));
+}
+
+}  // namespace
+}  // namespace tetraglass::tests

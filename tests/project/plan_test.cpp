@@ -1,0 +1,88 @@
+#include "project/plan.h"
+
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "tests/support/meshes.h"
+#include "tests/support/scenes.h"
+
+namespace tetraglass::project {
+namespace {
+
+using tests::constant_medium;
+
+class PlanTest : public testing::Test {
+ protected:
+  Scene scene(Mode mode) const {
+    return tests::make_scene(mesh_, mode, constant_medium({1, 1, 1}, 1));
+  }
+  mesh::TetMesh mesh_ = tests::unit_tetrahedron();
+};
+
+TEST_F(PlanTest, OnlyModesThatBlendAreSorted) {
+  EXPECT_EQ(plan(scene(Mode::full), {}).sort, SortMethod::centroid);
+  for (const Mode mode :
+       {Mode::emission, Mode::absorption, Mode::mip, Mode::thickness, Mode::iso}) {
+    EXPECT_EQ(plan(scene(mode), {}).sort, SortMethod::none) << to_string(mode);
+  }
+  Scene translucent = scene(Mode::iso);
+  translucent.isosurfaces = {{0.5, {1, 1, 1}, 0.5}};
+  EXPECT_EQ(plan(translucent, {}).sort, SortMethod::centroid);
+}
+
+TEST_F(PlanTest, RefusesAWrongPicture) {
+  Request unsorted;
+  unsorted.sort = SortMethod::none;
+  EXPECT_THROW((void)plan(scene(Mode::full), unsorted), base::UsageError);
+  EXPECT_NO_THROW((void)plan(scene(Mode::emission), unsorted));
+  Scene cells = scene(Mode::iso);
+  cells.field.location = mesh::Location::cell;
+  EXPECT_THROW((void)plan(cells, {}), base::UsageError);
+}
+
+TEST_F(PlanTest, TablesHaveTheDimensionOfTheMode) {
+  Request request;
+  request.integrator = Integrator::table3d;
+  const Plan full = plan(scene(Mode::full), request);
+  EXPECT_GT(full.table_n, 1);
+  EXPECT_GT(full.table_m, 1);
+  EXPECT_THROW((void)plan(scene(Mode::emission), request), base::UsageError);
+  EXPECT_THROW((void)plan(scene(Mode::thickness), request), base::UsageError);
+  request.integrator = Integrator::table2d;
+  const Plan emission = plan(scene(Mode::emission), request);
+  EXPECT_GT(emission.table_n, 1);
+  EXPECT_EQ(emission.table_m, 0);
+  EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError);
+  request.table_n = 1 << 20;
+  EXPECT_THROW((void)plan(scene(Mode::emission), request), base::UsageError);
+}
+
+TEST_F(PlanTest, NoWorkWithoutNeed) {
+  const Plan plain = plan(scene(Mode::full), {});
+  EXPECT_EQ(plain.table_n, 0);
+  EXPECT_FALSE(plain.gradients);
+  Scene shaded = scene(Mode::iso);
+  shaded.shading = Shading::smooth;
+  EXPECT_TRUE(plan(shaded, {}).gradients);
+  shaded.shading = Shading::flat;
+  EXPECT_FALSE(plan(shaded, {}).gradients);
+}
+
+TEST_F(PlanTest, TheReferenceTakesNoShortcuts) {
+  Request request;
+  request.projector = Projector::reference;
+  EXPECT_EQ(plan(scene(Mode::full), request).sort, SortMethod::fragments);
+  request.sort = SortMethod::centroid;
+  EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError);
+  request = {};
+  request.projector = Projector::reference;
+  request.integrator = Integrator::table3d;
+  EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError);
+}
+
+TEST_F(PlanTest, SaysWhy) {
+  EXPECT_GE(plan(scene(Mode::full), {}).reasons.size(), 4U);
+}
+
+}  // namespace
+}  // namespace tetraglass::project
