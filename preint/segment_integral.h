@@ -17,9 +17,9 @@ struct Radiance {
   double transmittance = 1;     ///< exp(-tau) in [0, 1]
 };
 
-/// The volume rendering integral of one segment under the transfer function, in double, with an absolute error
-/// of at most 1e-12 (colors in [0, 1]): split at the control points, then Gauss-Legendre on pieces of bounded optical depth.
-/// DESIGN section 2, mode `full`.
+/// The volume rendering integral of one segment under the transfer function, in double, with an
+/// absolute error of at most 1e-12 (colors in [0, 1]): split at the control points, then
+/// Gauss-Legendre on pieces of bounded optical depth. DESIGN section 2, mode `full`.
 [[nodiscard]] Radiance integrate_full(const TransferFunction& tf, const Segment& segment);
 
 /// int kappa c dl, exact up to rounding (the integrand is piecewise quadratic). Mode `emission`.
@@ -28,8 +28,8 @@ struct Radiance {
 /// int kappa dl, exact up to rounding (piecewise linear). Mode `absorption`.
 [[nodiscard]] double optical_depth(const TransferFunction& tf, const Segment& segment);
 
-/// The channel-wise largest color of the transfer function between the two values: mode `mip` of the
-/// transfer function (weiler2002 section 5.1).
+/// The channel-wise largest color of the transfer function between the two values: mode `mip` of
+/// the transfer function (weiler2002 section 5.1).
 [[nodiscard]] Color max_color(const TransferFunction& tf, double front, double back);
 
 }  // namespace tetraglass::preint

@@ -8,8 +8,8 @@
 
 namespace tetraglass::preint {
 
-/// RGBA entries over (front value, back value), both of n samples, linear from `low` to `high` inclusive.
-/// Entry (f, b) is at rgba[4 * (b * n + f)].
+/// RGBA entries over (front value, back value), both of n samples, linear from `low` to `high`
+/// inclusive. Entry (f, b) is at rgba[4 * (b * n + f)].
 struct Table2D {
   int n = 0;
   double low = 0;
@@ -17,8 +17,8 @@ struct Table2D {
   std::vector<float> rgba;
 };
 
-/// RGBA entries over (front, back, length): n x n x m, lengths linear from 0 to `max_length` inclusive.
-/// Entry (f, b, l) is at rgba[4 * ((l * n + b) * n + f)].
+/// RGBA entries over (front, back, length): n x n x m, lengths linear from 0 to `max_length`
+/// inclusive. Entry (f, b, l) is at rgba[4 * ((l * n + b) * n + f)].
 struct Table3D {
   int n = 0;
   int m = 0;
@@ -28,18 +28,28 @@ struct Table3D {
   std::vector<float> rgba;
 };
 
-/// Emission per unit length (RGB) and mean extinction (A). Brute force: every entry is integrated on its own.
+/// The value of sample i of n of an axis from `low` to `high`, both met exactly.
+[[nodiscard]] double table_node(double low, double high, int n, int i);
+
+// Each of the following throws UsageError for n or m below 2, a range that is not low < high, or a
+// length that is not positive.
+
+/// Emission per unit length (RGB) and mean extinction (A). Brute force: every entry is integrated
+/// on its own.
 [[nodiscard]] Table2D emission_table(const TransferFunction& tf, double low, double high, int n);
 
 /// Channel-wise largest color between the two values (RGB); A = 1. Brute force.
 [[nodiscard]] Table2D mip_table(const TransferFunction& tf, double low, double high, int n);
 
-/// Color (RGB, associated) and opacity (A) of the isosurfaces crossed, composited nearest first; 0 where there is none
-/// (weiler2002 Fig. 10). Brute force. Look it up without interpolation.
-[[nodiscard]] Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high, int n);
+/// Color (RGB, associated) and opacity (A) of the isosurfaces crossed, composited nearest first; 0
+/// where there is none (weiler2002 Fig. 10). Brute force. Look it up without interpolation.
+[[nodiscard]] Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high,
+                                int n);
 
-/// The full model of a segment: associated color (RGB) and opacity (A). Brute force, O(n^2 m) integrals, in
-/// parallel. Lengths beyond `max_length` are not covered: choose it as the longest cell edge.
-[[nodiscard]] Table3D full_table(const TransferFunction& tf, double low, double high, double max_length, int n, int m);
+/// The full model of a segment: associated color (RGB) and opacity (A). Brute force, O(n^2 m)
+/// integrals, in parallel. Lengths beyond `max_length` are not covered: choose it as the longest
+/// cell edge.
+[[nodiscard]] Table3D full_table(const TransferFunction& tf, double low, double high,
+                                 double max_length, int n, int m);
 
 }  // namespace tetraglass::preint

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,16 +24,19 @@ struct Medium {
 };
 
 /// Color and extinction as functions of the field's value: linear between control points, constant
-/// beyond the ends; two points of the same value make a jump, whose value is that of the second (upper) point.
+/// beyond the ends; two points of the same value make a jump, whose value is that of the second
+/// (upper) point. The points cut the values into points().size() + 1 intervals on each of which the
+/// function is linear: 0 below the first point, i between points()[i - 1] and points()[i], size()
+/// above the last; the interval of a jump is empty.
 class TransferFunction {
  public:
-  /// At least one point, values not decreasing, at most two of the same value, everything finite, extinction >= 0.
-  /// Throws InputError otherwise, naming the point.
+  /// At least one point, values not decreasing, at most two of the same value, everything finite
+  /// (the span of the values too), extinction >= 0. Throws InputError otherwise, naming the point.
   explicit TransferFunction(std::vector<ControlPoint> points);
 
   [[nodiscard]] const std::vector<ControlPoint>& points() const { return points_; }
 
-  /// Cost: logarithmic in the number of control points.
+  /// Cost of each of the following: logarithmic in the number of control points.
   [[nodiscard]] Medium at(double value) const;
 
   /// The limit from below (at a jump: the first of its two points).
@@ -41,21 +45,36 @@ class TransferFunction {
   /// The largest extinction for any value in [low, high].
   [[nodiscard]] double max_extinction(double low, double high) const;
 
+  /// The interval that holds `value` and values just above it ...
+  [[nodiscard]] std::size_t interval_above(double value) const;
+
+  /// ... and the one that holds values just below it.
+  [[nodiscard]] std::size_t interval_below(double value) const;
+
+  /// The linear function of a non-empty interval (see above), at one of its values or a limit at
+  /// its ends.
+  [[nodiscard]] Medium in_interval(std::size_t interval, double value) const;
+
  private:
   std::vector<ControlPoint> points_;
 };
 
-/// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}).
-/// Throws ReadError (missing, not JSON with line and column, wrong key with the right ones, wrong numbers).
+/// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}). The
+/// optional keys "ambient", "diffuse", "specular" and "shininess" of a point are checked but not
+/// kept: nothing shades by them yet. Throws ReadError (missing, not JSON with line and column,
+/// wrong key with the right ones, wrong numbers with the point).
 [[nodiscard]] TransferFunction read_transfer_function(const std::string& file);
 
 /// The names that `preset` knows, for help texts and suggestions.
 [[nodiscard]] std::vector<std::string> preset_names();
 
-/// A named color map over the values [low, high], with extinction rising linearly from 0 so that a ray along the
-/// whole `diagonal` (of the mesh's bounds, in its units) at the upper half of the range is nearly opaque: pictures
-/// do not depend on the mesh's units. low == high is allowed (a constant field).
-/// Throws UsageError for an unknown name, with the nearest ones.
-[[nodiscard]] TransferFunction preset(const std::string& name, double low, double high, double diagonal);
+/// A named color map over the values [low, high], with extinction rising linearly from 0 so that a
+/// ray along the whole `diagonal` (of the mesh's bounds, in its units) at the upper half of the
+/// range is nearly opaque: pictures do not depend on the mesh's units. "x-ray" is white with the
+/// same low extinction everywhere. low == high (a constant field) gives the middle of the map.
+/// Throws UsageError for an unknown name, with the nearest ones, and for low > high; InputError
+/// where the range is not finite or the diagonal not positive.
+[[nodiscard]] TransferFunction preset(const std::string& name, double low, double high,
+                                      double diagonal);
 
 }  // namespace tetraglass::preint

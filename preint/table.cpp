@@ -1,0 +1,102 @@
+#include "preint/table.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "base/errors.h"
+#include "preint/segment_integral.h"
+
+namespace tetraglass::preint {
+namespace {
+
+void check_values(double low, double high, int n) {
+  if (n < 2) throw base::UsageError(fmt::format("a table needs at least 2 values, not {}", n));
+  if (!(low < high) || !std::isfinite(high - low)) {
+    throw base::UsageError(
+        fmt::format("a table needs a range with low < high, both finite, not {}:{}", low, high));
+  }
+}
+
+/// Fills the row of entries of `back`, whose index is `row`, with entry(front, back).
+template <class Entry>
+void fill_row(float* row, int n, double low, double high, double back, const Entry& entry) {
+  for (int f = 0; f < n; ++f) {
+    const Eigen::Array4d rgba = entry(table_node(low, high, n, f), back);
+    for (int channel = 0; channel < 4; ++channel) {
+      row[4 * f + channel] = static_cast<float>(rgba[channel]);
+    }
+  }
+}
+
+template <class Entry>
+Table2D table_2d(double low, double high, int n, const Entry& entry) {
+  check_values(low, high, n);
+  const auto size = static_cast<std::size_t>(n);
+  Table2D table{n, low, high, std::vector<float>(4 * size * size)};
+  oneapi::tbb::parallel_for(0, n, [&](int b) {
+    float* row = &table.rgba[4 * size * static_cast<std::size_t>(b)];
+    fill_row(row, n, low, high, table_node(low, high, n, b), entry);
+  });
+  return table;
+}
+
+Eigen::Array4d rgba(const Color& color, double a) {
+  return {color[0], color[1], color[2], a};
+}
+
+}  // namespace
+
+double table_node(double low, double high, int n, int i) {
+  const double t = static_cast<double>(i) / (n - 1);
+  return low * (1 - t) + high * t;
+}
+
+Table2D emission_table(const TransferFunction& tf, double low, double high, int n) {
+  return table_2d(low, high, n, [&](double front, double back) {
+    const Segment segment{front, back, 1};
+    return rgba(integrate_emission(tf, segment), optical_depth(tf, segment));
+  });
+}
+
+Table2D mip_table(const TransferFunction& tf, double low, double high, int n) {
+  return table_2d(low, high, n,
+                  [&](double front, double back) { return rgba(max_color(tf, front, back), 1); });
+}
+
+Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high, int n) {
+  return table_2d(low, high, n, [&](double front, double back) {
+    Color color = Color::Zero();
+    double transmittance = 1;
+    for (const std::size_t i : crossed(surfaces, front, back)) {
+      color += transmittance * surfaces[i].opacity * surfaces[i].color;
+      transmittance *= 1 - surfaces[i].opacity;
+    }
+    return rgba(color, 1 - transmittance);
+  });
+}
+
+Table3D full_table(const TransferFunction& tf, double low, double high, double max_length, int n,
+                   int m) {
+  check_values(low, high, n);
+  if (m < 2) throw base::UsageError(fmt::format("a table needs at least 2 lengths, not {}", m));
+  if (!(max_length > 0) || !std::isfinite(max_length)) {
+    throw base::UsageError(fmt::format("the longest length must be positive, not {}", max_length));
+  }
+  const auto size = static_cast<std::size_t>(n);
+  const auto lengths = static_cast<std::size_t>(m);
+  Table3D table{n, m, low, high, max_length, std::vector<float>(4 * size * size * lengths)};
+  oneapi::tbb::parallel_for(0, n * m, [&](int row) {
+    const double length = table_node(0, max_length, m, row / n);
+    const double back = table_node(low, high, n, row % n);
+    float* entries = &table.rgba[4 * size * static_cast<std::size_t>(row)];
+    fill_row(entries, n, low, high, back, [&](double front, double b) {
+      const Radiance r = integrate_full(tf, {front, b, length});
+      return rgba(r.color, 1 - r.transmittance);
+    });
+  });
+  return table;
+}
+
+}  // namespace tetraglass::preint

@@ -1,0 +1,95 @@
+#include "preint/table.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "preint/segment_integral.h"
+
+namespace tetraglass::preint {
+namespace {
+
+const TransferFunction kMedium({{-1, {1, 0, 0}, 0},
+                                {0, {0, 1, 0.5}, 3},
+                                {0.2, {0, 0, 1}, 100},
+                                {0.2, {1, 1, 0}, 0},
+                                {1, {0.5, 0.5, 1}, 1}});
+
+TEST(Table, NodesMeetBothEnds) {
+  for (const int n : {2, 3, 7, 256}) {
+    EXPECT_EQ(table_node(-0.3, 1.7, n, 0), -0.3);
+    EXPECT_EQ(table_node(-0.3, 1.7, n, n - 1), 1.7);
+  }
+  EXPECT_EQ(table_node(0, 2, 3, 1), 1);
+}
+
+TEST(Table, EntriesOf2DAreTheIntegrals) {
+  constexpr int kN = 23;
+  const Table2D emission = emission_table(kMedium, -1.5, 1.2, kN);
+  const Table2D mip = mip_table(kMedium, -1.5, 1.2, kN);
+  ASSERT_EQ(emission.rgba.size(), 4U * kN * kN);
+  for (int b = 0; b < kN; ++b) {
+    for (int f = 0; f < kN; ++f) {
+      SCOPED_TRACE(testing::Message() << "front " << f << " back " << b);
+      const double front = table_node(-1.5, 1.2, kN, f), back = table_node(-1.5, 1.2, kN, b);
+      const auto at = static_cast<std::size_t>(4 * (b * kN + f));
+      const Color light = integrate_emission(kMedium, {front, back, 1});
+      const Color largest = max_color(kMedium, front, back);
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(emission.rgba[at + c], static_cast<float>(light[static_cast<long>(c)]));
+        EXPECT_EQ(mip.rgba[at + c], static_cast<float>(largest[static_cast<long>(c)]));
+      }
+      EXPECT_EQ(emission.rgba[at + 3],
+                static_cast<float>(optical_depth(kMedium, {front, back, 1})));
+      EXPECT_EQ(mip.rgba[at + 3], 1);
+    }
+  }
+}
+
+TEST(Table, EntriesOf3DAreTheIntegrals) {
+  constexpr int kN = 9, kM = 5;
+  constexpr double kLongest = 3;
+  const Table3D table = full_table(kMedium, -1, 1, kLongest, kN, kM);
+  ASSERT_EQ(table.rgba.size(), 4U * kN * kN * kM);
+  for (int l = 0; l < kM; ++l) {
+    for (int b = 0; b < kN; ++b) {
+      for (int f = 0; f < kN; ++f) {
+        SCOPED_TRACE(testing::Message() << "front " << f << " back " << b << " length " << l);
+        const Radiance r = integrate_full(
+            kMedium, {table_node(-1, 1, kN, f), table_node(-1, 1, kN, b), kLongest * l / (kM - 1)});
+        const auto at = static_cast<std::size_t>(4 * ((l * kN + b) * kN + f));
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_EQ(table.rgba[at + c], static_cast<float>(r.color[static_cast<long>(c)]));
+        }
+        EXPECT_EQ(table.rgba[at + 3], static_cast<float>(1 - r.transmittance));
+      }
+    }
+  }
+}
+
+TEST(Table, IsosurfacesAreCompositedNearestFirst) {
+  const std::vector<Isosurface> surfaces = {{0.25, {1, 0, 0}, 0.5}, {0.75, {0, 0, 1}, 1}};
+  const Table2D table = iso_table(surfaces, 0, 1, 3);  // nodes 0, 1/2, 1
+  const auto entry = [&](int f, int b) {
+    return Eigen::Map<const Eigen::Array4f>(&table.rgba[static_cast<std::size_t>(4 * (b * 3 + f))]);
+  };
+  EXPECT_TRUE((entry(0, 0) == 0).all());
+  EXPECT_TRUE((entry(0, 1) == Eigen::Array4f(0.5F, 0, 0, 0.5F)).all());
+  EXPECT_TRUE((entry(1, 0) == Eigen::Array4f(0.5F, 0, 0, 0.5F)).all());
+  EXPECT_TRUE((entry(0, 2) == Eigen::Array4f(0.5F, 0, 0.5F, 1)).all());
+  EXPECT_TRUE((entry(2, 0) == Eigen::Array4f(0, 0, 1, 1)).all());
+  EXPECT_TRUE((entry(1, 2) == Eigen::Array4f(0, 0, 1, 1)).all());
+}
+
+TEST(Table, RefusesWhatMakesNoTable) {
+  EXPECT_THROW(static_cast<void>(emission_table(kMedium, 0, 1, 1)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(mip_table(kMedium, 1, 1, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(iso_table({}, 1, 0, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, 1, 1, 8, 1)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, 1, 0, 8, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, INFINITY, 1, 8, 8)), base::UsageError);
+}
+
+}  // namespace
+}  // namespace tetraglass::preint
