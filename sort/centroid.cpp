@@ -1,9 +1,12 @@
 #include "sort/centroid.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -11,12 +14,16 @@
 namespace tetraglass::sort {
 namespace {
 
-// Digits of 11 bits: three passes, and the 2048 counts of a pass fit the first-level cache.
-constexpr int kDigitBits = 11;
+// Keys have four digits of 8 bits: the 256 places of a pass stay in the first-level cache.
+constexpr int kDigitBits = 8;
 constexpr std::uint32_t kDigits = 1U << kDigitBits;
+constexpr int kKeyDigits = 4;
 
-// A chunk has to outweigh its 2048 counts, and the start of a task.
+// A chunk has to outweigh its counts and the start of a task; fewer cells are sorted at once.
 constexpr std::size_t kLeastChunk = 32768;
+
+// Below this many entries insertion is faster than clearing counts.
+constexpr std::size_t kFew = 48;
 
 struct Chunks {
   std::size_t total;
@@ -35,41 +42,39 @@ void for_each_chunk(const Chunks& chunks, const F& f) {
   }
 }
 
-// The depth of centroids less the depth of a reference point, four times as large in a parallel
-// view (only the order counts). Coordinates are taken relative to the reference before anything is
-// rounded; the difference of two distances |v + w| - |w| is (|v|^2 + 2 v.w) / (|v + w| + |w|),
-// which does not cancel however far the eye is.
+// A number that grows with the depth of centroids: in a parallel view four times the depth less
+// that of a reference point; in perspective the squared distance less that of the reference, |v +
+// w|^2 - |w|^2 = v.(v + 2 w), which does not cancel however far the eye is. Four coordinates are
+// added before the reference is taken away: the rounding of the sum is no larger than that of the
+// coordinates themselves.
 class Depth {
  public:
   Depth(const mesh::TetMesh& mesh, const Eigen::Vector3d& reference, const View& view)
       : points_(mesh.points.data()),
         cells_(mesh.cells.data()),
-        reference_(reference),
+        four_references_(4 * reference),
         direction_(view.direction),
-        to_reference_(reference - view.eye),
-        distance_(to_reference_.norm()) {}
+        two_to_reference_(2 * (reference - view.eye)) {}
 
   [[nodiscard]] double parallel(std::uint32_t cell) const { return direction_.dot(sum(cell)); }
 
   [[nodiscard]] double perspective(std::uint32_t cell) const {
     const Eigen::Vector3d v = 0.25 * sum(cell);
-    const double both = (v + to_reference_).norm() + distance_;
-    return both > 0 ? v.dot(v + 2 * to_reference_) / both : 0;
+    return v.dot(v + two_to_reference_);
   }
 
  private:
   [[nodiscard]] Eigen::Vector3d sum(std::uint32_t index) const {
     const mesh::Cell& cell = cells_[index];
-    return ((points_[cell[0]] - reference_) + (points_[cell[1]] - reference_)) +
-           ((points_[cell[2]] - reference_) + (points_[cell[3]] - reference_));
+    return ((points_[cell[0]] + points_[cell[1]]) + (points_[cell[2]] + points_[cell[3]])) -
+           four_references_;
   }
 
   const Eigen::Vector3d* points_;
   const mesh::Cell* cells_;
-  Eigen::Vector3d reference_;
+  Eigen::Vector3d four_references_;
   Eigen::Vector3d direction_;
-  Eigen::Vector3d to_reference_;
-  double distance_;
+  Eigen::Vector3d two_to_reference_;
 };
 
 struct Extent {
@@ -101,50 +106,87 @@ Extent write_depths(std::span<const std::uint32_t> cells, const Chunks& chunks,
   return all;
 }
 
-// 0 for the farthest depth (and for NaN), 2^32 - 1 for the nearest.
+constexpr double kLastStep = 4294967294.0;  // 2^32 - 2
+
+// 1 for the farthest depth, 2^32 - 1 for the nearest, 0 where there is no finite one.
 std::uint32_t key_of(double depth, double farthest, double scale) {
-  const double steps = (farthest - depth) * scale;
-  if (!(steps > 0)) return 0;
-  return static_cast<std::uint32_t>(std::min(steps, 4294967295.0));
+  if (!std::isfinite(depth)) return 0;
+  return 1 + static_cast<std::uint32_t>(std::min((farthest - depth) * scale, kLastStep));
 }
 
-// Turns the counts of each digit in each chunk into the place where the chunk puts its first entry
-// of that digit: digits in order, within a digit the chunks in order, which makes the sort stable.
-void counts_to_places(std::vector<std::uint32_t>& counts, std::size_t chunk_count) {
-  std::uint32_t place = 0;
-  for (std::size_t digit = 0; digit < kDigits; ++digit) {
-    for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) {
-      place += std::exchange(counts[chunk * kDigits + digit], place);
-    }
-  }
+std::uint32_t digit_of(std::uint64_t entry, int digit) {
+  return static_cast<std::uint32_t>(entry >> (32 + kDigitBits * digit)) & (kDigits - 1);
 }
 
-std::uint32_t digit_of(std::uint64_t entry, int shift) {
-  return static_cast<std::uint32_t>(entry >> (32 + shift)) & (kDigits - 1);
-}
-
-void count_digits(const Chunks& chunks, const std::uint64_t* entries, int shift,
-                  std::vector<std::uint32_t>& counts) {
+// Spreads the entries over buckets by their highest digit, keeping their order within each bucket.
+// Gives where each bucket begins.
+std::array<std::uint32_t, kDigits + 1> spread(const Chunks& chunks, const std::uint64_t* entries,
+                                              std::vector<std::uint32_t>& places,
+                                              std::uint64_t* target) {
   for_each_chunk(chunks, [&](std::size_t chunk) {
-    std::uint32_t* mine = counts.data() + chunk * kDigits;
+    std::uint32_t* mine = places.data() + chunk * kDigits;
     std::fill_n(mine, kDigits, 0U);
     for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-      ++mine[digit_of(entries[i], shift)];
+      ++mine[digit_of(entries[i], kKeyDigits - 1)];
     }
   });
-}
-
-// One pass: every entry goes to its place by the digit at `shift`. To: std::uint64_t keeps the
-// entry, std::uint32_t only its cell (the low half).
-template <typename To>
-void scatter(const Chunks& chunks, const std::uint64_t* entries, int shift,
-             std::vector<std::uint32_t>& places, To* target) {
+  std::array<std::uint32_t, kDigits + 1> begins{};
+  std::uint32_t place = 0;
+  for (std::size_t digit = 0; digit < kDigits; ++digit) {
+    begins[digit] = place;
+    for (std::size_t chunk = 0; chunk < chunks.count; ++chunk) {
+      place += std::exchange(places[chunk * kDigits + digit], place);
+    }
+  }
+  begins[kDigits] = place;
   for_each_chunk(chunks, [&](std::size_t chunk) {
     std::uint32_t* mine = places.data() + chunk * kDigits;
     for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-      target[mine[digit_of(entries[i], shift)]++] = static_cast<To>(entries[i]);
+      target[mine[digit_of(entries[i], kKeyDigits - 1)]++] = entries[i];
     }
   });
+  return begins;
+}
+
+void insertion_sort(std::span<std::uint64_t> entries) {
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const std::uint64_t moved = entries[i];
+    std::size_t hole = i;
+    for (; hole > 0 && entries[hole - 1] >> 32 > moved >> 32; --hole) {
+      entries[hole] = entries[hole - 1];
+    }
+    entries[hole] = moved;
+  }
+}
+
+// Sorts entries by the lowest kCount digits of their keys, from the lowest one up, and writes
+// their cells to `cells`. `spare` is as long as the entries; both are left in disorder.
+template <int kCount>
+void sort_bucket(std::span<std::uint64_t> entries, std::span<std::uint64_t> spare,
+                 std::uint32_t* cells) {
+  const auto cell_of = [](std::uint64_t entry) { return static_cast<std::uint32_t>(entry); };
+  if (entries.size() <= kFew) {
+    insertion_sort(entries);
+    std::transform(entries.begin(), entries.end(), cells, cell_of);
+    return;
+  }
+  std::array<std::array<std::uint32_t, kDigits>, kCount> places{};
+  for (const std::uint64_t entry : entries) {
+    for (int digit = 0; digit < kCount; ++digit) {
+      ++places[static_cast<std::size_t>(digit)][digit_of(entry, digit)];
+    }
+  }
+  for (int digit = 0; digit < kCount; ++digit) {
+    std::array<std::uint32_t, kDigits>& mine = places[static_cast<std::size_t>(digit)];
+    std::exclusive_scan(mine.begin(), mine.end(), mine.begin(), 0U);
+    if (digit + 1 == kCount) {
+      for (const std::uint64_t entry : entries)
+        cells[mine[digit_of(entry, digit)]++] = cell_of(entry);
+    } else {
+      for (const std::uint64_t entry : entries) spare[mine[digit_of(entry, digit)]++] = entry;
+      std::swap(entries, spare);
+    }
+  }
 }
 
 Eigen::Vector3d reference_point(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells) {
@@ -165,7 +207,7 @@ Order CentroidSorter::sort(const mesh::TetMesh& mesh, std::span<const std::uint3
   order.cells.resize(n);
   entries_.resize(n);
   spare_.resize(n);
-  counts_.resize(chunks.count * kDigits);
+  places_.resize(chunks.count * kDigits);
 
   const Depth depth(mesh, reference_point(mesh, cells), view);
   const Extent extent =
@@ -175,7 +217,9 @@ Order CentroidSorter::sort(const mesh::TetMesh& mesh, std::span<const std::uint3
           : write_depths(
                 cells, chunks, [&](auto c) { return depth.perspective(c); }, spare_.data());
   const double range = extent.high - extent.low;
-  const double scale = range > 0 ? 4294967295.0 / range : 0;
+  // Finite also where the range is subnormal.
+  const double scale =
+      range > 0 ? std::min(kLastStep / range, std::numeric_limits<double>::max()) : 0;
   for_each_chunk(chunks, [&](std::size_t chunk) {
     for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
       const std::uint64_t key = key_of(std::bit_cast<double>(spare_[i]), extent.high, scale);
@@ -183,15 +227,20 @@ Order CentroidSorter::sort(const mesh::TetMesh& mesh, std::span<const std::uint3
     }
   });
 
-  count_digits(chunks, entries_.data(), 0, counts_);
-  counts_to_places(counts_, chunks.count);
-  scatter(chunks, entries_.data(), 0, counts_, spare_.data());
-  count_digits(chunks, spare_.data(), kDigitBits, counts_);
-  counts_to_places(counts_, chunks.count);
-  scatter(chunks, spare_.data(), kDigitBits, counts_, entries_.data());
-  count_digits(chunks, entries_.data(), 2 * kDigitBits, counts_);
-  counts_to_places(counts_, chunks.count);
-  scatter(chunks, entries_.data(), 2 * kDigitBits, counts_, order.cells.data());
+  if (chunks.total < kLeastChunk) {
+    sort_bucket<kKeyDigits>(entries_, spare_, order.cells.data());
+    return order;
+  }
+  // Buckets fit the second-level cache, where the remaining passes cost half as much as over all
+  // entries.
+  const auto begins = spread(chunks, entries_.data(), places_, spare_.data());
+  tbb::parallel_for(std::size_t{0}, std::size_t{kDigits}, [&](std::size_t bucket) {
+    const std::size_t begin = begins[bucket];
+    const std::size_t count = begins[bucket + 1] - begin;
+    sort_bucket<kKeyDigits - 1>(std::span(spare_).subspan(begin, count),
+                                std::span(entries_).subspan(begin, count),
+                                order.cells.data() + begin);
+  });
   return order;
 }
 
