@@ -1,0 +1,178 @@
+#include "mesh/import.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "base/suggest.h"
+#include "mesh/decompose.h"
+#include "mesh/distance.h"
+#include "mesh/file_name.h"
+#include "mesh/read_exodus.h"
+#include "mesh/read_gmsh.h"
+#include "mesh/read_plot3d.h"
+#include "mesh/read_surface.h"
+#include "mesh/read_tetgen.h"
+#include "mesh/read_vtk.h"
+#include "mesh/tetrahedralize.h"
+
+namespace tetraglass::mesh {
+namespace {
+
+struct Format {
+  std::vector<std::string> extensions;
+  std::function<MeshData(const std::string&, const ImportOptions&)> read;
+  bool may_be_points = false;  ///< points without cells are a point cloud, not a damaged file
+};
+
+using Reader = MeshData (*)(const std::string&);
+
+/// A reader of files without time steps.
+auto timeless(Reader read) {
+  return [read](const std::string& file, const ImportOptions&) { return read(file); };
+}
+
+const std::vector<Format>& formats() {
+  static const std::vector<Format> kFormats = {
+      {{".vtu", ".pvtu"}, timeless(read_vtk)},
+      {{".vtk", ".vtp", ".pvtp"}, timeless(read_vtk), true},
+      {{".vti", ".vts", ".vtr", ".pvti", ".pvts", ".pvtr"}, timeless(read_vtk)},
+      {{".e", ".ex2", ".exo", ".exii"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_exodus(file, options.time);
+       }},
+      {{".xyz", ".bin", ".x", ".g", ".grd", ".p3d"}, timeless(read_plot3d)},
+      {{".off", ".obj", ".stl", ".ply"}, timeless(read_surface), true},
+      {{".node", ".ele"}, timeless(read_tetgen), true},
+      {{".msh"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_gmsh(file, options.time);
+       }},
+  };
+  return kFormats;
+}
+
+const Format& find_format(const std::string& file) {
+  const std::string extension = extension_of(file);
+  const auto found = std::ranges::find_if(formats(), [&](const Format& format) {
+    return std::ranges::find(format.extensions, extension) != format.extensions.end();
+  });
+  if (found != formats().end()) return *found;
+  if (extension == ".q") {
+    throw base::ReadError(file, "is a PLOT3D solution; give the grid file beside it instead");
+  }
+  const std::vector<std::string> known = readable_extensions();
+  const std::vector<std::string> near =
+      extension.empty() ? std::vector<std::string>{} : base::nearest_names(extension, known);
+  throw base::ReadError(
+      file,
+      fmt::format("its extension {} is not known{}; readable are {}",
+                  extension.empty() ? "is missing, or" : "'" + extension + "'",
+                  near.empty() ? "" : base::suggestion(extension, near), fmt::join(known, " ")));
+}
+
+void check_readable(const std::string& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw base::ReadError(file, "there is no such file");
+  if (std::filesystem::is_directory(status)) throw base::ReadError(file, "is a folder");
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, error) == 0) {
+    throw base::ReadError(file, "is empty (0 bytes)");
+  }
+}
+
+enum class Kind { solids, surface, points };
+
+Kind kind_of(const ImportReport& report, bool may_be_points) {
+  int highest = -1;
+  for (const auto& [type, count] : report.input_cells) highest = std::max(highest, dimension(type));
+  if (highest == 3) return Kind::solids;
+  if (highest == 2) return Kind::surface;
+  if (report.input_points == 0) throw base::InputError("holds no points and no cells");
+  if (highest == 0 || (report.input_cells.empty() && may_be_points)) return Kind::points;
+  throw base::InputError(fmt::format(
+      "holds {} points, but {}", report.input_points,
+      report.input_cells.empty() ? "no cells" : "no cells that tetrahedra could be made of"));
+}
+
+TetMesh split_solids(const MeshData& data, ImportReport& report) {
+  Decomposition split = decompose(data);
+  report.skipped = split.skipped;
+  report.inverted = split.inverted;
+  const auto note = [&](std::size_t count, const char* what) {
+    if (count > 0) report.notes.push_back(fmt::format("{} {}", count, what));
+  };
+  note(split.unknown, "cells of an unknown type are left out");
+  note(split.collapsed, "parts of collapsed cells are left out");
+  note(split.nonlinear, "cells of higher order are drawn by their corners");
+  return std::move(split.mesh);
+}
+
+TetMesh make_tetrahedra(const MeshData& data, bool may_be_points, ImportReport& report) {
+  switch (kind_of(report, may_be_points)) {
+    case Kind::solids:
+      return split_solids(data, report);
+    case Kind::surface: {
+      TetMesh mesh = fill_surface(data, report.notes);
+      mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
+      return mesh;
+    }
+    case Kind::points:
+      break;
+  }
+  TetMesh mesh = delaunay(data, report.notes);
+  const bool has_fields = std::ranges::any_of(
+      mesh.fields, [](const Field& field) { return field.location == Location::point; });
+  if (!has_fields) {
+    mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Import import_mesh(const std::string& file, const ImportOptions& options) {
+  check_readable(file);
+  const Format& format = find_format(file);
+  try {
+    Import import;
+    base::Stopwatch clock;
+    MeshData data = format.read(file, options);
+    import.report.input_cells = data.census();
+    import.report.input_points = data.points.size();
+    import.report.notes = std::move(data.notes);
+    import.report.read_ms = clock.milliseconds();
+    clock.restart();
+    import.mesh = make_tetrahedra(data, format.may_be_points, import.report);
+    import.report.decompose_ms = clock.milliseconds();
+    return import;
+  } catch (const base::InputError& error) {
+    throw base::InputError(file + ": " + error.what());
+  } catch (const base::Error&) {
+    throw;
+  } catch (const base::UsageError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw base::ReadError(file, "takes more memory than there is");
+  } catch (const std::exception& error) {
+    throw base::ReadError(file, error.what());
+  }
+}
+
+std::vector<std::string> readable_extensions() {
+  std::vector<std::string> extensions;
+  for (const Format& format : formats()) {
+    extensions.insert(extensions.end(), format.extensions.begin(), format.extensions.end());
+  }
+  std::ranges::sort(extensions);
+  return extensions;
+}
+
+}  // namespace tetraglass::mesh

@@ -1,0 +1,104 @@
+#include "mesh/read_vtk.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <vtkDataObject.h>
+#include <vtkDataSet.h>
+#include <vtkDataSetReader.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
+#include <vtkXMLPPolyDataReader.h>
+#include <vtkXMLPRectilinearGridReader.h>
+#include <vtkXMLPStructuredGridReader.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLReader.h>
+#include <vtkXMLRectilinearGridReader.h>
+#include <vtkXMLStructuredGridReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "base/errors.h"
+#include "mesh/file_name.h"
+#include "mesh/vtk_dataset.h"
+#include "mesh/vtk_messages.h"
+
+namespace tetraglass::mesh {
+namespace {
+
+/// The reader for an extension of VTK's XML formats; null for any other.
+vtkSmartPointer<vtkXMLReader> xml_reader(const std::string& extension) {
+  if (extension == ".vtu") return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+  if (extension == ".vti") return vtkSmartPointer<vtkXMLImageDataReader>::New();
+  if (extension == ".vts") return vtkSmartPointer<vtkXMLStructuredGridReader>::New();
+  if (extension == ".vtr") return vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
+  if (extension == ".vtp") return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  if (extension == ".pvtu") return vtkSmartPointer<vtkXMLPUnstructuredGridReader>::New();
+  if (extension == ".pvti") return vtkSmartPointer<vtkXMLPImageDataReader>::New();
+  if (extension == ".pvts") return vtkSmartPointer<vtkXMLPStructuredGridReader>::New();
+  if (extension == ".pvtr") return vtkSmartPointer<vtkXMLPRectilinearGridReader>::New();
+  if (extension == ".pvtp") return vtkSmartPointer<vtkXMLPPolyDataReader>::New();
+  return nullptr;
+}
+
+/// What the reader has read, once it is sure that VTK had nothing to say against it.
+MeshData result(const std::string& file, vtkDataObject* output, const VtkMessages& messages) {
+  // The first message names the cause, the others what came of it.
+  std::vector<std::string> lost_fields;
+  for (const std::string& error : messages.errors()) {
+    // Said of the head of a section of fields, when the cells have been read in full.
+    if (error != "Number of cells don't match!" && error != "Number of points don't match!") {
+      throw base::ReadError(file, "is damaged or not complete: " + messages.errors().front());
+    }
+    lost_fields.push_back("the fields are left out: " + error);
+  }
+  auto* data = vtkDataSet::SafeDownCast(output);
+  if (data == nullptr) throw base::ReadError(file, "does not hold a mesh, a grid or an image");
+  MeshData mesh = mesh_data(*data);
+  mesh.notes.insert(mesh.notes.end(), lost_fields.begin(), lost_fields.end());
+  for (const std::string& warning : messages.warnings()) {
+    // Remarks of other programs on their arrays, of no meaning here.
+    if (warning.find("Could not locate key") != std::string::npos) continue;
+    const std::string note = "VTK: " + warning;
+    if (std::ranges::find(mesh.notes, note) == mesh.notes.end()) mesh.notes.push_back(note);
+  }
+  return mesh;
+}
+
+MeshData read_xml(const std::string& file, vtkXMLReader& reader) {
+  VtkMessages messages;
+  if (reader.CanReadFile(file.c_str()) == 0) {
+    throw base::ReadError(file, fmt::format("is not a VTK XML file of the kind that its extension "
+                                            "'{}' says",
+                                            extension_of(file)));
+  }
+  reader.SetFileName(file.c_str());
+  reader.Update();
+  return result(file, reader.GetOutputDataObject(0), messages);
+}
+
+MeshData read_legacy(const std::string& file) {
+  VtkMessages messages;
+  vtkNew<vtkDataSetReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllNormalsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllColorScalarsOn();
+  reader->ReadAllTCoordsOn();
+  reader->ReadAllFieldsOn();
+  reader->Update();
+  return result(file, reader->GetOutput(), messages);
+}
+
+}  // namespace
+
+MeshData read_vtk(const std::string& file) {
+  const vtkSmartPointer<vtkXMLReader> xml = xml_reader(extension_of(file));
+  return xml != nullptr ? read_xml(file, *xml) : read_legacy(file);
+}
+
+}  // namespace tetraglass::mesh

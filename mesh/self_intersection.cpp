@@ -1,0 +1,117 @@
+#include "mesh/self_intersection.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <Eigen/Geometry>
+
+namespace tetraglass::mesh {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangle = std::array<std::uint32_t, 3>;
+
+class FaultFinder {
+ public:
+  explicit FaultFinder(const TriangleSurface& surface) : surface_(surface) {
+    points_.reserve(surface.points.size());
+    for (const Eigen::Vector3d& p : surface.points) points_.emplace_back(p.x(), p.y(), p.z());
+    boxes_.reserve(surface.triangles.size());
+    for (const Triangle& t : surface.triangles) {
+      Eigen::AlignedBox3d box;
+      for (const std::uint32_t i : t) box.extend(surface.points[i]);
+      boxes_.push_back(box);
+      all_.extend(box);
+    }
+  }
+
+  SurfaceFaults find() {
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+      const Triangle& t = surface_.triangles[i];
+      if (CGAL::collinear(points_[t[0]], points_[t[1]], points_[t[2]])) {
+        found(t, faults_.flat);
+      }
+    }
+    if (faults_.flat == 0) sweep();  // the tests of pairs are of true triangles
+    return faults_;
+  }
+
+ private:
+  void found(const Triangle& t, std::size_t& count) {
+    if (faults_.flat + faults_.crossings == 0) faults_.where = surface_.points[t[0]];
+    ++count;
+  }
+
+  void sweep() {
+    if (boxes_.empty()) return;
+    Eigen::Index axis = 0;
+    all_.sizes().maxCoeff(&axis);
+    std::vector<std::size_t> order(boxes_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return boxes_[i].min()[axis]; });
+    for (std::size_t a = 0; a < order.size(); ++a) {
+      const std::size_t i = order[a];
+      for (std::size_t b = a + 1; b < order.size(); ++b) {
+        const std::size_t j = order[b];
+        if (boxes_[j].min()[axis] > boxes_[i].max()[axis]) break;
+        if (boxes_[i].intersects(boxes_[j]) && meet(surface_.triangles[i], surface_.triangles[j])) {
+          found(surface_.triangles[i], faults_.crossings);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Kernel::Triangle_3 triangle(const Triangle& t) const {
+    return {points_[t[0]], points_[t[1]], points_[t[2]]};
+  }
+
+  /// Whether they meet elsewhere than in the corners that they share.
+  [[nodiscard]] bool meet(const Triangle& s, const Triangle& t) const {
+    // The corners, those that are shared first.
+    Triangle a = s;
+    Triangle b = t;
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = std::find(b.begin() + static_cast<std::ptrdiff_t>(shared), b.end(), s[i]);
+      if (found == b.end()) continue;
+      std::iter_swap(b.begin() + static_cast<std::ptrdiff_t>(shared), found);
+      std::iter_swap(a.begin() + static_cast<std::ptrdiff_t>(shared), std::ranges::find(a, s[i]));
+      ++shared;
+    }
+    if (shared == 0) return CGAL::do_intersect(triangle(s), triangle(t));
+    if (shared == 1) {
+      // Two planes meet in a line through the common corner, so if the triangles share more of it,
+      // the far edge of one reaches the other.
+      return CGAL::do_intersect(edge(a), triangle(t)) || CGAL::do_intersect(edge(b), triangle(s));
+    }
+    if (shared == 2) {
+      // They lie on each other only if they are in one plane, on the same side of the edge.
+      return CGAL::coplanar(points_[a[0]], points_[a[1]], points_[a[2]], points_[b[2]]) &&
+             CGAL::coplanar_orientation(points_[a[0]], points_[a[1]], points_[a[2]],
+                                        points_[b[2]]) == CGAL::POSITIVE;
+    }
+    return true;  // one and the same
+  }
+
+  [[nodiscard]] Kernel::Segment_3 edge(const Triangle& t) const {
+    return {points_[t[1]], points_[t[2]]};
+  }
+
+  const TriangleSurface& surface_;
+  std::vector<Point> points_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  Eigen::AlignedBox3d all_;
+  SurfaceFaults faults_;
+};
+
+}  // namespace
+
+SurfaceFaults find_faults(const TriangleSurface& surface) {
+  return FaultFinder(surface).find();
+}
+
+}  // namespace tetraglass::mesh

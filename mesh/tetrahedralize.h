@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_data.h"
+#include "mesh/tet_mesh.h"
+
+namespace tetraglass::mesh {
+
+/// Fills the closed surface that the cells of dimension 2 of `data` make with about a hundred
+/// thousand well-shaped tetrahedra (more where the surface is finer), by TetGen. Equal points are
+/// one; polygons are cut by the diagonals from their smallest point index. A shell within another
+/// one is a cavity if its faces turn towards its inside, and part of the solid if they turn away
+/// from it; where the faces of a surface do not agree on a direction, shells that lie in an odd
+/// number of others are cavities. Points are added on the surface and within; fields are not
+/// carried over. What was done is added to `notes`. Throws InputError for a surface that is open
+/// (with the number of its open edges), has no volume, or intersects itself; UnavailableError in a
+/// build without TetGen. Source: Si 2015, "TetGen, a Delaunay-Based Quality Tetrahedral Mesh
+/// Generator".
+[[nodiscard]] TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes);
+
+/// The Delaunay tetrahedra of all points, which fill their convex hull, with the point fields. Of
+/// equal points the first one counts. What was done is added to `notes`. Throws InputError for
+/// fewer than 4 points, points in one plane and coordinates that are not finite; UnavailableError
+/// in a build without CGAL.
+[[nodiscard]] TetMesh delaunay(const MeshData& data, std::vector<std::string>& notes);
+
+}  // namespace tetraglass::mesh

@@ -1,0 +1,39 @@
+#include "mesh/time_step.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "mesh/number_text.h"
+
+namespace tetraglass::mesh {
+
+std::size_t find_time_step(const std::string& wanted, std::span<const double> times) {
+  if (wanted.empty() || wanted == "last") return times.size() - 1;
+  constexpr std::string_view kIndex = "index:";
+  if (wanted.starts_with(kIndex)) {
+    std::size_t index = 0;
+    const char* first = wanted.data() + kIndex.size();
+    const char* end = wanted.data() + wanted.size();
+    const auto [stop, error] = std::from_chars(first, end, index);
+    if (error != std::errc() || stop != end || index >= times.size()) {
+      throw base::UsageError(fmt::format(
+          "there is no time step '{}'; there are index:0 to index:{}", wanted, times.size() - 1));
+    }
+    return index;
+  }
+  const auto value = parse_number(wanted);
+  if (!value || !std::isfinite(*value)) {
+    throw base::UsageError(
+        fmt::format("'{}' is no time; give 'last', a time value or 'index:N'", wanted));
+  }
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (std::abs(times[i] - *value) < std::abs(times[nearest] - *value)) nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace tetraglass::mesh
