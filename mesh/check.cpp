@@ -116,26 +116,33 @@ struct Shape {
   std::array<std::size_t, 18> histogram{};
 };
 
-// The smallest of the six angles between the faces, in degrees. The angle at the edge between two
-// faces has the cosine of their inward normals' supplement; atan2 keeps small angles accurate.
+// The smallest of the six angles between the faces, in degrees. Outward normals enclose its
+// supplement. Sines come from cross products, which keep small angles accurate; the smallest angle
+// in [0, pi] is that of the largest cotangent.
 double smallest_dihedral(const std::array<Vector3d, 4>& p) {
-  std::array<Vector3d, 4> normals;
-  for (std::size_t face = 0; face < 4; ++face) {
-    const auto& v = kFaceVertices[face];
-    const Vector3d& a = p[static_cast<std::size_t>(v[0])];
-    // Unit edges: the products neither overflow nor underflow whatever the mesh's units.
-    const Vector3d ab = (p[static_cast<std::size_t>(v[1])] - a).stableNormalized();
-    const Vector3d ac = (p[static_cast<std::size_t>(v[2])] - a).stableNormalized();
-    normals[face] = ab.cross(ac).stableNormalized();
-  }
-  double smallest = std::numbers::pi;
+  const std::array<Vector3d, 3> edges = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
+  // Scaled to edges of about 1, products neither overflow nor underflow whatever the mesh's units.
+  double longest = 0;
+  for (const Vector3d& edge : edges) longest = std::max(longest, edge.cwiseAbs().maxCoeff());
+  const Vector3d a = edges[0] / longest;
+  const Vector3d b = edges[1] / longest;
+  const Vector3d c = edges[2] / longest;
+  const std::array<Vector3d, 4> normals = {(b - a).cross(c - a).normalized(),
+                                           c.cross(b).normalized(), a.cross(c).normalized(),
+                                           b.cross(a).normalized()};
+  double best_cosine = -1;
+  double best_sine = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) {
+      const double cosine = -normals[i].dot(normals[j]);
       const double sine = normals[i].cross(normals[j]).norm();
-      smallest = std::min(smallest, std::atan2(sine, -normals[i].dot(normals[j])));
+      if (cosine * best_sine >= best_cosine * sine) {
+        best_cosine = cosine;
+        best_sine = sine;
+      }
     }
   }
-  return smallest * 180 / std::numbers::pi;
+  return std::atan2(best_sine, best_cosine) * 180 / std::numbers::pi;
 }
 
 Shape examine_cells(const TetMesh& mesh) {
@@ -269,15 +276,22 @@ std::uint32_t opposite_vertex(const Cell& cell, const Adjacency& adjacency, std:
   return cell[0];  // not reached: adjacency is mutual
 }
 
+bool has_volume(const TetMesh& mesh, const Cell& c) {
+  const auto& p = mesh.points;
+  return orientation(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) > 0;
+}
+
 bool is_delaunay(const TetMesh& mesh, const Adjacency& adjacency) {
   std::atomic<bool> delaunay = true;
   tbb::parallel_for(Range(0, mesh.cells.size(), kGrain), [&](const Range& range) {
+    const auto& p = mesh.points;
     for (std::size_t i = range.begin(); i != range.end() && delaunay; ++i) {
       const Cell& c = mesh.cells[i];
-      const auto& p = mesh.points;
-      if (orientation(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) <= 0) continue;
+      if (!has_volume(mesh, c)) continue;
       for (const std::uint32_t neighbor : adjacency.neighbors[i]) {
         if (neighbor == kNoCell) continue;
+        // Both sides of a face give the same answer: the first one with volume is asked.
+        if (neighbor < i && has_volume(mesh, mesh.cells[neighbor])) continue;
         const std::uint32_t far = opposite_vertex(mesh.cells[neighbor], adjacency, neighbor, i);
         if (in_sphere(p[c[0]], p[c[1]], p[c[2]], p[c[3]], p[far]) > 0) delaunay = false;
       }
