@@ -17,10 +17,30 @@ struct Radiance {
   double transmittance = 1;     ///< exp(-tau) in [0, 1]
 };
 
+/// The smallest error that can be asked for: rounding is of this order.
+inline constexpr double kFinest = 1e-15;
+
 /// The volume rendering integral of one segment under the transfer function, in double, with an
-/// absolute error of at most 1e-12 (colors in [0, 1]): split at the control points, then
-/// Gauss-Legendre on pieces of bounded optical depth. DESIGN section 2, mode `full`.
-[[nodiscard]] Radiance integrate_full(const TransferFunction& tf, const Segment& segment);
+/// absolute error of at most max(1e-12, tolerance) (colors in [0, 1]): split at the control points,
+/// then Gauss-Legendre on parts of bounded optical depth, the cheapest rule for the tolerance.
+/// DESIGN section 2, mode `full`. The transmittance has no error but rounding.
+[[nodiscard]] Radiance integrate_full(const TransferFunction& tf, const Segment& segment,
+                                      double tolerance = kFinest);
+
+/// Light of a segment parted by where it comes from: weighted by a ramp that falls from 1 at the
+/// front to 0 at the back, and by the opposite ramp (lum2004, "Interpolated Pre-Integrated
+/// Lighting"). Both parts together are the unweighted light.
+struct RampedRadiance {
+  Color front = Color::Zero();
+  Color back = Color::Zero();
+  double white_front = 0;  ///< the same of a white medium: the two sum to the opacity
+  double white_back = 0;
+  double transmittance = 1;
+};
+
+/// With the error of `integrate_full`.
+[[nodiscard]] RampedRadiance integrate_ramped(const TransferFunction& tf, const Segment& segment,
+                                              double tolerance = kFinest);
 
 /// int kappa c dl, exact up to rounding (the integrand is piecewise quadratic). Mode `emission`.
 [[nodiscard]] Color integrate_emission(const TransferFunction& tf, const Segment& segment);

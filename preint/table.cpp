@@ -7,17 +7,10 @@
 
 #include "base/errors.h"
 #include "preint/segment_integral.h"
+#include "preint/table_axis.h"
 
 namespace tetraglass::preint {
 namespace {
-
-void check_values(double low, double high, int n) {
-  if (n < 2) throw base::UsageError(fmt::format("a table needs at least 2 values, not {}", n));
-  if (!(low < high) || !std::isfinite(high - low)) {
-    throw base::UsageError(
-        fmt::format("a table needs a range with low < high, both finite, not {}:{}", low, high));
-  }
-}
 
 /// Fills the row of entries of `back`, whose index is `row`, with entry(front, back).
 template <class Entry>
@@ -32,7 +25,7 @@ void fill_row(float* row, int n, double low, double high, double back, const Ent
 
 template <class Entry>
 Table2D table_2d(double low, double high, int n, const Entry& entry) {
-  check_values(low, high, n);
+  check_axis(low, high, n);
   const auto size = static_cast<std::size_t>(n);
   Table2D table{n, low, high, std::vector<float>(4 * size * size)};
   oneapi::tbb::parallel_for(0, n, [&](int b) {
@@ -47,6 +40,14 @@ Eigen::Array4d rgba(const Color& color, double a) {
 }
 
 }  // namespace
+
+void check_axis(double low, double high, int n) {
+  if (n < 2) throw base::UsageError(fmt::format("a table needs at least 2 values, not {}", n));
+  if (!(low < high) || !std::isfinite(high - low)) {
+    throw base::UsageError(
+        fmt::format("a table needs a range with low < high, both finite, not {}:{}", low, high));
+  }
+}
 
 double table_node(double low, double high, int n, int i) {
   const double t = static_cast<double>(i) / (n - 1);
@@ -75,28 +76,6 @@ Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double hi
     }
     return rgba(color, 1 - transmittance);
   });
-}
-
-Table3D full_table(const TransferFunction& tf, double low, double high, double max_length, int n,
-                   int m) {
-  check_values(low, high, n);
-  if (m < 2) throw base::UsageError(fmt::format("a table needs at least 2 lengths, not {}", m));
-  if (!(max_length > 0) || !std::isfinite(max_length)) {
-    throw base::UsageError(fmt::format("the longest length must be positive, not {}", max_length));
-  }
-  const auto size = static_cast<std::size_t>(n);
-  const auto lengths = static_cast<std::size_t>(m);
-  Table3D table{n, m, low, high, max_length, std::vector<float>(4 * size * size * lengths)};
-  oneapi::tbb::parallel_for(0, n * m, [&](int row) {
-    const double length = table_node(0, max_length, m, row / n);
-    const double back = table_node(low, high, n, row % n);
-    float* entries = &table.rgba[4 * size * static_cast<std::size_t>(row)];
-    fill_row(entries, n, low, high, back, [&](double front, double b) {
-      const Radiance r = integrate_full(tf, {front, b, length});
-      return rgba(r.color, 1 - r.transmittance);
-    });
-  });
-  return table;
 }
 
 }  // namespace tetraglass::preint

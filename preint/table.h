@@ -46,10 +46,25 @@ struct Table3D {
 [[nodiscard]] Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high,
                                 int n);
 
-/// The full model of a segment: associated color (RGB) and opacity (A). Brute force, O(n^2 m)
-/// integrals, in parallel. Lengths beyond `max_length` are not covered: choose it as the longest
-/// cell edge.
+/// How a table of the full model is filled. Both integrate to 1e-9, below the rounding of a float
+/// entry. (The algorithm itself holds 1e-12, plus the rounding of the axis' samples relative to
+/// their spacing.)
+enum class TableMethod {
+  incremental,  ///< lum2004, incremental subrange integration: a constant number of operations per
+                ///< entry
+  brute_force,  ///< every entry integrated on its own: as many pieces as control points lie between
+                ///< its ends
+};
+
+/// The full model of segments of one length (slabs between parallel slices, lum2004): associated
+/// color (RGB) and opacity (A). Where front = back, the constant medium. In parallel.
+[[nodiscard]] Table2D slab_table(const TransferFunction& tf, double low, double high, double length,
+                                 int n, TableMethod method = TableMethod::incremental);
+
+/// The full model of a segment: associated color (RGB) and opacity (A), n x n x m entries, in
+/// parallel. Lengths beyond `max_length` are not covered: choose it as the longest cell edge.
 [[nodiscard]] Table3D full_table(const TransferFunction& tf, double low, double high,
-                                 double max_length, int n, int m);
+                                 double max_length, int n, int m,
+                                 TableMethod method = TableMethod::incremental);
 
 }  // namespace tetraglass::preint

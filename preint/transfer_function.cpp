@@ -89,4 +89,10 @@ double TransferFunction::max_extinction(double low, double high) const {
   return result;
 }
 
+TransferFunction mirrored(const TransferFunction& tf) {
+  std::vector<ControlPoint> points(tf.points().rbegin(), tf.points().rend());
+  for (ControlPoint& p : points) p.value = -p.value;
+  return TransferFunction(std::move(points));
+}
+
 }  // namespace tetraglass::preint

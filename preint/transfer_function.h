@@ -59,6 +59,9 @@ class TransferFunction {
   std::vector<ControlPoint> points_;
 };
 
+/// The function of the negated value: what rises along a ray in `tf` falls in its mirror image.
+[[nodiscard]] TransferFunction mirrored(const TransferFunction& tf);
+
 /// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}). The
 /// optional keys "ambient", "diffuse", "specular" and "shininess" of a point are checked but not
 /// kept: nothing shades by them yet. Throws ReadError (missing, not JSON with line and column,

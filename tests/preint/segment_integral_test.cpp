@@ -120,6 +120,21 @@ RC_GTEST_PROP(SegmentIntegralProperty, FullMeetsQuadrature, ()) {
   RC_ASSERT(std::abs(r.transmittance - std::exp(-reference.depth)) <= kTolerance);
 }
 
+RC_GTEST_PROP(SegmentIntegralProperty, MeetsTheToleranceAskedFor, ()) {
+  const auto tf = *tests::transfer_function(50);
+  const auto s = *tests::segment(10);
+  const Radiance exact = integrate_full(tf, s);
+  const RampedRadiance ramped = integrate_ramped(tf, s);
+  for (const double tolerance : {1e-12, 1e-10, 1e-9, 1e-6, 1e-5, 1e-4, 1.0}) {
+    const Radiance r = integrate_full(tf, s, tolerance);
+    const double bound = std::max(kTolerance, std::min(tolerance, 1e-4));
+    RC_ASSERT(largest_difference(r, exact) <= bound);
+    const RampedRadiance coarse = integrate_ramped(tf, s, tolerance);
+    RC_ASSERT((coarse.front - ramped.front).abs().maxCoeff() <= bound);
+    RC_ASSERT((coarse.back - ramped.back).abs().maxCoeff() <= bound);
+  }
+}
+
 RC_GTEST_PROP(SegmentIntegralProperty, EmissionAndDepthMeetQuadrature, ()) {
   const auto tf = *tests::transfer_function();
   const auto s = *tests::segment();
@@ -179,7 +194,7 @@ RC_GTEST_PROP(SegmentIntegralProperty, MaxColorIsTheLargestOnTheWay, ()) {
   const auto s = *tests::segment();
   const Color largest = max_color(tf, s.front, s.back);
   Color sampled = tf.at(s.front).color.max(tf.at(s.back).color);
-  for (int i = 1; i < 1000; ++i) {
+  for (int i = 1; i < 1000 && s.front != s.back; ++i) {
     const double value = s.front + (s.back - s.front) * i / 1000;
     sampled = sampled.max(tf.at(value).color).max(tf.below(value).color);
   }
@@ -226,8 +241,8 @@ TEST(SegmentIntegral, NeverNanOrInfinite) {
 
 TEST(SegmentIntegral, ManyControlPoints) {
   std::vector<ControlPoint> points;
-  for (int i = 0; i <= 5000; ++i)
-    points.push_back({i / 5000.0, Color::Constant(i % 2), 50.0 * (i % 3)});
+  for (int i = 0; i <= 800; ++i)
+    points.push_back({i / 800.0, Color::Constant(i % 2), 50.0 * (i % 3)});
   const TransferFunction tf(points);
   for (const Segment& s : {Segment{0, 1, 1}, Segment{1, 0, 0.1}, Segment{-1, 2, 10}}) {
     const tests::Reference reference = tests::integrate_by_quadrature(tf, s, 1);

@@ -1,7 +1,5 @@
 #include "preint/table.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
@@ -47,27 +45,6 @@ TEST(Table, EntriesOf2DAreTheIntegrals) {
   }
 }
 
-TEST(Table, EntriesOf3DAreTheIntegrals) {
-  constexpr int kN = 9, kM = 5;
-  constexpr double kLongest = 3;
-  const Table3D table = full_table(kMedium, -1, 1, kLongest, kN, kM);
-  ASSERT_EQ(table.rgba.size(), 4U * kN * kN * kM);
-  for (int l = 0; l < kM; ++l) {
-    for (int b = 0; b < kN; ++b) {
-      for (int f = 0; f < kN; ++f) {
-        SCOPED_TRACE(testing::Message() << "front " << f << " back " << b << " length " << l);
-        const Radiance r = integrate_full(
-            kMedium, {table_node(-1, 1, kN, f), table_node(-1, 1, kN, b), kLongest * l / (kM - 1)});
-        const auto at = static_cast<std::size_t>(4 * ((l * kN + b) * kN + f));
-        for (std::size_t c = 0; c < 3; ++c) {
-          EXPECT_EQ(table.rgba[at + c], static_cast<float>(r.color[static_cast<long>(c)]));
-        }
-        EXPECT_EQ(table.rgba[at + 3], static_cast<float>(1 - r.transmittance));
-      }
-    }
-  }
-}
-
 TEST(Table, IsosurfacesAreCompositedNearestFirst) {
   const std::vector<Isosurface> surfaces = {{0.25, {1, 0, 0}, 0.5}, {0.75, {0, 0, 1}, 1}};
   const Table2D table = iso_table(surfaces, 0, 1, 3);  // nodes 0, 1/2, 1
@@ -86,9 +63,6 @@ TEST(Table, RefusesWhatMakesNoTable) {
   EXPECT_THROW(static_cast<void>(emission_table(kMedium, 0, 1, 1)), base::UsageError);
   EXPECT_THROW(static_cast<void>(mip_table(kMedium, 1, 1, 8)), base::UsageError);
   EXPECT_THROW(static_cast<void>(iso_table({}, 1, 0, 8)), base::UsageError);
-  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, 1, 1, 8, 1)), base::UsageError);
-  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, 1, 0, 8, 8)), base::UsageError);
-  EXPECT_THROW(static_cast<void>(full_table(kMedium, 0, INFINITY, 1, 8, 8)), base::UsageError);
 }
 
 }  // namespace

@@ -1,0 +1,133 @@
+#include "preint/cell_series.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "preint/gauss.h"
+#include "preint/segment_pieces.h"
+#include "preint/series_kernel.h"
+
+namespace tetraglass::preint {
+namespace {
+
+constexpr double kDeepest = 4;
+
+/// Enough for any tolerance: 4^29 / 29! = 3.3e-14. The moments come from Gauss-Legendre with 14
+/// nodes, whose error at that depth is 2.4e-16 of the emission (as for the segment integral).
+constexpr int kTerms = 29;
+
+/// Which integrals a span holds, as values at one point of the cell: the color, and for ramps the
+/// color and white times the position.
+template <class Span>
+struct Quantities;
+
+template <>
+struct Quantities<LightSpan> {
+  static constexpr std::size_t kCount = kLightQuantities;
+  static std::array<double, kCount> at(const Color& c, double /*position*/) {
+    return {c[0], c[1], c[2]};
+  }
+};
+
+template <>
+struct Quantities<RampedSpan> {
+  static constexpr std::size_t kCount = kRampedQuantities;
+  static std::array<double, kCount> at(const Color& c, double position) {
+    return {c[0], c[1], c[2], position * c[0], position * c[1], position * c[2], position};
+  }
+};
+
+/// How many terms leave out less than the tolerance.
+int terms_for(double depth, double tolerance) {
+  double next = depth;  // depth^terms / terms!
+  int terms = 1;
+  for (; terms < kTerms && next > tolerance; ++terms) next *= depth / (terms + 1);
+  return terms;
+}
+
+}  // namespace
+
+template <>
+LightSpan exact_span<LightSpan>(const TransferFunction& tf, const Segment& segment,
+                                double tolerance) {
+  const Radiance r = integrate_full(tf, segment, tolerance);
+  return {r.color[0], r.color[1], r.color[2], r.transmittance};
+}
+
+template <>
+RampedSpan exact_span<RampedSpan>(const TransferFunction& tf, const Segment& segment,
+                                  double tolerance) {
+  const RampedRadiance r = integrate_ramped(tf, segment, tolerance);
+  const Color c = r.front + r.back;
+  return {{c[0], c[1], c[2], r.transmittance}, r.back[0], r.back[1], r.back[2], r.white_back};
+}
+
+template <class Span>
+CellSeries<Span>::CellSeries(const TransferFunction& tf, const std::vector<double>& nodes,
+                             double tolerance)
+    : tf_(tf),
+      nodes_(nodes),
+      tolerance_(tolerance),
+      by_depth_(nodes.size() - 1),
+      depth_(padded_to_vectors(size())) {
+  using Q = Quantities<Span>;
+  moments_.resize(kTerms * Q::kCount * padded());
+  oneapi::tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t cell) {
+    const Segment unit{nodes[cell], nodes[cell + 1], 1};
+    depth_[cell] = optical_depth(tf, unit);
+    if (depth_[cell] == 0) return;
+    std::array<double, kTerms * Q::kCount> sums{};
+    double before = 0;    // optical depth in front of the piece
+    double position = 0;  // of the front of the piece in the cell
+    for_each_piece(tf, unit, [&](const Piece& piece) {
+      const OpticalExtinction k = optical_extinction(piece);
+      const double slope = k.back - k.front;
+      for (const GaussNode& node : kGauss14) {
+        const double x = node.x;
+        const Color color = (1 - x) * piece.front.color + x * piece.back.color;
+        const auto values = Q::at(color, std::min(1.0, position + x * piece.length));
+        const double t = (before + x * (k.front + 0.5 * slope * x)) / depth_[cell];
+        double weight = node.weight * (k.front + slope * x);
+        for (std::size_t m = 0; m < kTerms; ++m) {
+          for (std::size_t q = 0; q < Q::kCount; ++q) sums[m * Q::kCount + q] += weight * values[q];
+          weight *= t / static_cast<double>(m + 1);
+        }
+      }
+      before += k.depth();
+      position += piece.length;
+    });
+    for (std::size_t i = 0; i < sums.size(); ++i) moments_[i * padded() + cell] = sums[i];
+  });
+  std::iota(by_depth_.begin(), by_depth_.end(), std::size_t{0});
+  std::sort(by_depth_.begin(), by_depth_.end(),
+            [&](std::size_t a, std::size_t b) { return depth_[a] > depth_[b]; });
+}
+
+template <class Span>
+void CellSeries<Span>::evaluate(double length, std::vector<Span>& cells) const {
+  // The kernel writes spans as rows of doubles.
+  static_assert(sizeof(LightSpan) == 4 * sizeof(double));
+  static_assert(sizeof(RampedSpan) == 8 * sizeof(double));
+  std::size_t deep = 0;
+  while (deep < size() && length * depth_[by_depth_[deep]] > kDeepest) ++deep;
+  if (deep < size()) {
+    const int terms = terms_for(length * depth_[by_depth_[deep]], tolerance_);
+    const SeriesInput input{depth_.data(), moments_.data(), padded(), length, kDeepest, terms};
+    // Cells that are too deep for the series are computed along, and replaced below.
+    evaluate_series(input, Quantities<Span>::kCount, reinterpret_cast<double*>(cells.data()));
+  }
+  for (std::size_t i = 0; i < deep; ++i) {
+    const std::size_t cell = by_depth_[i];
+    cells[cell] = exact_span<Span>(tf_, {nodes_[cell], nodes_[cell + 1], length}, tolerance_);
+  }
+}
+
+template class CellSeries<LightSpan>;
+template class CellSeries<RampedSpan>;
+
+}  // namespace tetraglass::preint

@@ -1,0 +1,139 @@
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "preint/incremental.h"
+#include "preint/segment_integral.h"
+#include "preint/table.h"
+
+namespace tetraglass::preint {
+namespace {
+
+struct NamedMedium {
+  const char* name;
+  TransferFunction tf;
+  double low;
+  double high;
+};
+
+std::vector<NamedMedium> media() {
+  std::vector<ControlPoint> dense;
+  for (int i = 0; i <= 150; ++i) {
+    dense.push_back({i / 150.0, Color(0.5 + 0.5 * std::sin(i), i % 3 == 0, i / 150.0),
+                     4.0 * (i % 7) * (i % 7)});
+  }
+  const Color red(1, 0, 0), blue(0.1, 0.2, 1);
+  return {
+      {"nothing", TransferFunction({{0, red, 0}}), -1, 1},
+      {"constant", TransferFunction({{0, red, 3}}), -1, 1},
+      {"ramp", TransferFunction({{0, red, 0}, {1, blue, 10}}), 0, 1},
+      {"spike", TransferFunction({{0.49, red, 0}, {0.5, blue, 900}, {0.51, red, 0}}), 0, 1},
+      {"narrow spike", TransferFunction({{0.5, red, 0}, {0.50001, blue, 1e6}, {0.50002, red, 0}}),
+       0, 1},
+      {"jumps",
+       TransferFunction({{0.25, red, 0},
+                         {0.25, blue, 40},
+                         {0.5, red, 1},
+                         {0.5, red, 0},
+                         {0.77, red, 0},
+                         {0.77, blue, 1e-30}}),
+       0, 1},
+      {"huge", TransferFunction({{0, red, 0}, {0.3, blue, 1e6}, {0.6, red, 1e6}, {0.6, blue, 0.5}}),
+       0, 1},
+      {"far from 0", TransferFunction({{1000, red, 0}, {1001, blue, 5}}), 999.5, 1001},
+      {"dense", TransferFunction(dense), 0, 1},
+  };
+}
+
+TEST(FullTable, IncrementalIsBruteForceInDouble) {
+  for (const NamedMedium& medium : media()) {
+    for (const int n : {2, 3, 7, 33, 100}) {
+      for (const double length : {0.0, 1e-8, 0.3, 20.0}) {
+        SCOPED_TRACE(testing::Message() << medium.name << " n " << n << " length " << length);
+        std::vector<int> written(static_cast<std::size_t>(n * n));
+        double worst = 0;
+        const auto check = [&](std::size_t, int f, int b, const LightSpan& span, int) {
+          const double from = table_node(medium.low, medium.high, n, f);
+          const double to = table_node(medium.low, medium.high, n, b);
+          const Radiance r = integrate_full(medium.tf, {from, to, length});
+          const double error =
+              std::max((r.color - Color(span.red, span.green, span.blue)).abs().maxCoeff(),
+                       std::abs(r.transmittance - span.transmittance));
+          static std::mutex mutex;
+          const std::lock_guard lock(mutex);
+          ++written[static_cast<std::size_t>(b * n + f)];
+          worst = std::max(worst, error);
+        };
+        incremental_entries<LightSpan>(medium.tf, medium.low, medium.high, n, {length}, kFinest,
+                                       check);
+        // The samples of the axis are rounded; the incremental form takes them for exactly equally
+        // spaced. Lengths that are wrong by a relative delta change the light by at most delta
+        // max(tau exp(-tau)) < delta.
+        const double most = std::max(std::abs(medium.low), std::abs(medium.high));
+        const double spacing = (medium.high - medium.low) / (n - 1);
+        EXPECT_LE(worst, 1e-12 + 2 * std::numeric_limits<double>::epsilon() * most / spacing);
+        for (const int times : written) ASSERT_EQ(times, 1);
+      }
+    }
+  }
+}
+
+TEST(FullTable, MethodsAgreeInFloat) {
+  for (const NamedMedium& medium : media()) {
+    SCOPED_TRACE(medium.name);
+    const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+      float worst = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+      return worst;
+    };
+    const Table2D slow =
+        slab_table(medium.tf, medium.low, medium.high, 0.7, 61, TableMethod::brute_force);
+    const Table2D fast = slab_table(medium.tf, medium.low, medium.high, 0.7, 61);
+    ASSERT_EQ(slow.rgba.size(), 4U * 61 * 61);
+    ASSERT_EQ(fast.rgba.size(), slow.rgba.size());
+    EXPECT_LE(difference(slow.rgba, fast.rgba), 2e-7F);
+    const Table3D slow3 =
+        full_table(medium.tf, medium.low, medium.high, 2, 23, 5, TableMethod::brute_force);
+    const Table3D fast3 = full_table(medium.tf, medium.low, medium.high, 2, 23, 5);
+    ASSERT_EQ(fast3.rgba.size(), 4U * 23 * 23 * 5);
+    EXPECT_LE(difference(slow3.rgba, fast3.rgba), 2e-7F);
+  }
+}
+
+TEST(FullTable, EntriesOf3DAreTheIntegrals) {
+  constexpr int kN = 9, kM = 5;
+  constexpr double kLongest = 3;
+  const NamedMedium medium = media()[5];
+  const Table3D table = full_table(medium.tf, -1, 1, kLongest, kN, kM, TableMethod::brute_force);
+  ASSERT_EQ(table.rgba.size(), 4U * kN * kN * kM);
+  for (int l = 0; l < kM; ++l) {
+    for (int b = 0; b < kN; ++b) {
+      for (int f = 0; f < kN; ++f) {
+        SCOPED_TRACE(testing::Message() << "front " << f << " back " << b << " length " << l);
+        const Radiance r = integrate_full(
+            medium.tf,
+            {table_node(-1, 1, kN, f), table_node(-1, 1, kN, b), kLongest * l / (kM - 1)});
+        const auto at = static_cast<std::size_t>(4 * ((l * kN + b) * kN + f));
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_EQ(table.rgba[at + c], static_cast<float>(r.color[static_cast<long>(c)]));
+        }
+        EXPECT_EQ(table.rgba[at + 3], static_cast<float>(1 - r.transmittance));
+      }
+    }
+  }
+}
+
+TEST(FullTable, RefusesWhatMakesNoTable) {
+  const TransferFunction tf({{0, Color::Ones(), 1}});
+  EXPECT_THROW(static_cast<void>(full_table(tf, 0, 1, 1, 8, 1)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(full_table(tf, 0, 1, 0, 8, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(full_table(tf, 0, INFINITY, 1, 8, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(slab_table(tf, 0, 1, -1, 8)), base::UsageError);
+  EXPECT_THROW(static_cast<void>(slab_table(tf, 0, 1, 1, 1)), base::UsageError);
+}
+
+}  // namespace
+}  // namespace tetraglass::preint
