@@ -1,0 +1,13 @@
+# Writes a C++ file with the texts of FILES and the function that finds them; see EmbedText.cmake.
+string(REGEX REPLACE "::[^:]*$" "" namespace "${FUNCTION}")
+string(REGEX REPLACE "^.*::" "" name "${FUNCTION}")
+set(content "#include <string_view>\n\nnamespace ${namespace} {\n\n")
+string(APPEND content "std::string_view ${name}(std::string_view name);\n\n")
+string(APPEND content "std::string_view ${name}(std::string_view name) {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(base "${file}" NAME)
+  file(READ "${file}" text)
+  string(APPEND content "  if (name == \"${base}\") {\n    return R\"~~~(${text})~~~\";\n  }\n")
+endforeach()
+string(APPEND content "  return {};\n}\n\n}  // namespace ${namespace}\n")
+file(WRITE "${OUTPUT}" "${content}")

@@ -1,0 +1,220 @@
+#include "project/gl/cell_projector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "preint/table.h"
+#include "project/gl/functions.inl"
+#include "project/gl/switches.h"
+#include "project/gl/target_image.h"
+
+namespace tetraglass::project::gl {
+namespace {
+
+// The same medium per unit of normalized length, in which the shaders measure.
+preint::TransferFunction normalized(const preint::TransferFunction& tf, double radius) {
+  std::vector<preint::ControlPoint> points = tf.points();
+  for (preint::ControlPoint& point : points) {
+    point.extinction = std::min(point.extinction * radius, MediumBuffers::kMostExtinction);
+  }
+  return preint::TransferFunction(std::move(points));
+}
+
+// No ray is longer within a cell.
+double longest_edge(const Scene& scene) {
+  double longest = 0;
+  for (const std::uint32_t index : scene.drawable.cells) {
+    const mesh::Cell& cell = scene.mesh->cells[index];
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const Eigen::Vector3d edge = scene.mesh->points[cell[i]] - scene.mesh->points[cell[j]];
+        longest = std::max(longest, edge.stableNorm());
+      }
+    }
+  }
+  return longest;
+}
+
+Table table_2d(const Context& context, const Scene& scene, const Plan& plan, double low,
+               double high, const preint::TransferFunction& tf) {
+  const bool iso = scene.mode == Mode::iso;
+  const preint::Table2D table =
+      iso ? iso_table(scene.isosurfaces, low, high, plan.table_n)
+          : (scene.mode == Mode::mip ? mip_table(tf, low, high, plan.table_n)
+                                     : emission_table(tf, low, high, plan.table_n));
+  return {context, {table.n, table.n, 0}, table.rgba, !iso};
+}
+
+// Two texels a surface, ascending: what crossing.glsl reads. Of equal isovalues the first is the
+// nearer one on rays along which the field rises; they are one surface in all but name.
+std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
+                                            const Normalization& normalization) {
+  std::vector<preint::Isosurface> surfaces = scene.isosurfaces;
+  std::stable_sort(surfaces.begin(), surfaces.end(),
+                   [](const auto& a, const auto& b) { return a.value < b.value; });
+  std::vector<Eigen::Vector4f> texels;
+  for (const preint::Isosurface& surface : surfaces) {
+    const Eigen::Vector3f color = surface.color.cast<float>().matrix();
+    texels.emplace_back(normalization.value(surface.value), static_cast<float>(surface.opacity),
+                        0.0F, 0.0F);
+    texels.emplace_back(color.x(), color.y(), color.z(), 0.0F);
+  }
+  return texels;
+}
+
+}  // namespace
+
+CellProjector::CellProjector(const Context& context, const Scene& scene, const Plan& plan,
+                             Stats& stats, int largest_tile)
+    : context_(context),
+      scene_(scene),
+      plan_(plan),
+      largest_tile_(std::min(largest_tile, context.limits().tile)),
+      normalization_(scene),
+      drawn_(drawn_cells(scene, normalization_)),
+      mesh_(context, scene, normalization_,
+            scene.mode == Mode::iso && scene.shading == Shading::smooth),
+      faces_(context),
+      counter_(context) {
+  if (plan.sort == SortMethod::fragments) {
+    throw base::UnavailableError("the gl projector sorts cells, not fragments");
+  }
+  make_tables(stats);
+  if (reads_medium(scene, plan)) {
+    medium_.emplace(context, scene.transfer_function, normalization_);
+  }
+  if (scene.mode == Mode::iso && plan.integrator == Integrator::exact) {
+    surfaces_.emplace(context, Texel::rgba32f);
+    surfaces_->upload(surface_texels(scene, normalization_), "isosurfaces");
+  }
+  // Without an order the cells to draw are still told by their numbers, unless all are.
+  if (plan.sort != SortMethod::none || drawn_.size() != scene.mesh->cells.size()) {
+    order_.emplace(context, Texel::r32ui);
+    if (plan.sort == SortMethod::none) order_->upload(drawn_, "cells");
+  }
+}
+
+void CellProjector::make_tables(Stats& stats) {
+  if (plan_.integrator == Integrator::exact) return;
+  const base::Stopwatch clock;
+  const double low = normalization_.field_value(-1);
+  const double high = normalization_.field_value(1);
+  const double radius = normalization_.radius;
+  const preint::TransferFunction tf = normalized(scene_.transfer_function, radius);
+  if (plan_.integrator == Integrator::table2d) {
+    table_.emplace(table_2d(context_, scene_, plan_, low, high, tf));
+  } else {
+    const preint::Table3D table =
+        full_table(tf, low, high, longest_edge(scene_) / radius, plan_.table_n, plan_.table_m);
+    table_length_ = static_cast<float>(table.max_length);
+    table_.emplace(context_, std::array<int, 3>{table.n, table.n, table.m}, table.rgba, true);
+  }
+  stats.tables_ms += clock.milliseconds();
+}
+
+const Program& CellProjector::program(bool parallel) {
+  std::optional<Program>& program = parallel ? parallel_program_ : perspective_program_;
+  if (program) return *program;
+  const std::vector<std::string> names =
+      shader_switches(scene_, plan_, parallel, order_.has_value());
+  program.emplace(context_, shader_source("cell.vert.glsl", names),
+                  shader_source("cell.frag.glsl", names));
+  program->set("cells", Units::kCells);
+  program->set("vertices", Units::kVertices);
+  program->set("order", Units::kOrder);
+  program->set("cell_values", Units::kCellValues);
+  program->set("gradients", Units::kGradients);
+  program->set("medium_pieces", Units::kMediumPieces);
+  program->set("medium_index", Units::kMediumIndex);
+  program->set("table", Units::kTable);
+  program->set("table_length", table_length_);
+  program->set("surfaces", Units::kSurfaces);
+  program->set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
+  return *program;
+}
+
+void CellProjector::order_cells(const Frame& frame, Stats& stats) {
+  if (plan_.sort == SortMethod::none) return;
+  const base::Stopwatch clock;
+  const sort::Order order = sorter_.sort(*scene_.mesh, drawn_, frame.view());
+  order_->upload(order.cells, "cells");
+  stats.sort_method = order.method;
+  stats.sort_exact = order.exact;
+  stats.cycles += order.cycles;
+  stats.sort_ms += clock.milliseconds();
+}
+
+void CellProjector::bind() const {
+  mesh_.bind();
+  if (order_) order_->bind(Units::kOrder);
+  if (medium_) medium_->bind();
+  if (surfaces_) surfaces_->bind(Units::kSurfaces);
+  if (table_) table_->bind(Units::kTable);
+}
+
+void CellProjector::set_blending() const {
+  const Functions& gl = context_.gl();
+  const bool opaque = draws_opaque_surfaces(scene_);
+  if (opaque) {
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.Disable(GL_BLEND);
+  } else {
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Enable(GL_BLEND);
+  }
+  const bool over = scene_.mode == Mode::full || scene_.mode == Mode::iso;
+  gl.BlendEquation(scene_.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
+  gl.BlendFunc(GL_ONE, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+  // Of the outline's two covers the one by the faces that are seen from behind: it is there even
+  // where the eye is inside a cell. Counter-clockwise, since both the face and the picture's rows
+  // are turned.
+  gl.Enable(GL_CULL_FACE);
+  gl.CullFace(GL_BACK);
+  gl.FrontFace(GL_CCW);
+}
+
+void CellProjector::draw_tile(const Program& program, const ViewUniforms& view, const Tile& tile,
+                              const Target& target, Image& image) const {
+  view.set(program, tile, context_.limits().subpixel_bits);
+  target.begin(empty_pixel(scene_), tile.width, tile.height);
+  program.use();
+  faces_.draw(drawn_.size());
+  read_tile(target, scene_, normalization_, tile, image);
+}
+
+Image CellProjector::draw(const Frame& frame, Stats& stats) {
+  order_cells(frame, stats);
+  const base::Stopwatch clock;
+  stats.context = context_.description();
+  Image image(frame.width(), frame.height());
+  const ViewUniforms view(frame, normalization_);
+  if (!drawn_.empty() && view.sees_mesh()) {
+    const Program& shaders = program(frame.parallel());
+    const int width = std::min(frame.width(), largest_tile_);
+    const int height = std::min(frame.height(), largest_tile_);
+    const Target target(context_, has_scalar_target(scene_) ? Texel::r32f : Texel::rgba32f,
+                        draws_opaque_surfaces(scene_), width, height);
+    bind();
+    set_blending();
+    counter_.begin();
+    for (int y = 0; y < frame.height(); y += height) {
+      for (int x = 0; x < frame.width(); x += width) {
+        const Tile tile{x, y, std::min(width, frame.width() - x),
+                        std::min(height, frame.height() - y)};
+        draw_tile(shaders, view, tile, target, image);
+      }
+    }
+    counter_.end();
+    stats.fragments += counter_.count();
+    context_.gl().Finish();
+    context_.check("drawing cells");
+  }
+  stats.project_ms += clock.milliseconds();
+  return image;
+}
+
+}  // namespace tetraglass::project::gl

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "project/camera.h"
+#include "project/gl/drawn_cells.h"
+#include "project/gl/medium_buffers.h"
+#include "project/gl/mesh_buffers.h"
+#include "project/gl/view_uniforms.h"
+#include "project/image.h"
+#include "project/plan.h"
+#include "project/stats.h"
+#include "sort/centroid.h"
+
+namespace tetraglass::project::gl {
+
+/// Draws one scene from any number of views: the mesh, the transfer function, tables and shaders
+/// stay on the context. Refers to the context and the scene; both outlive it.
+class CellProjector {
+ public:
+  /// The largest picture that is drawn at once: 256 MB of RGBA32F. Larger ones are drawn in tiles.
+  static constexpr int kLargestTile = 4096;
+
+  /// The scene has a drawable cell. Adds the time for tables to `stats`. Throws UnavailableError
+  /// where the mesh or the tables do not fit or the plan asks for an order that this projector
+  /// lacks.
+  CellProjector(const Context& context, const Scene& scene, const Plan& plan, Stats& stats,
+                int largest_tile = kLargestTile);
+
+  /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
+  /// and size do not matter.
+  [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
+
+ private:
+  [[nodiscard]] const Program& program(bool parallel);
+  void make_tables(Stats& stats);
+  void order_cells(const Frame& frame, Stats& stats);
+  void bind() const;
+  void set_blending() const;
+  void draw_tile(const Program& program, const ViewUniforms& view, const Tile& tile,
+                 const Target& target, Image& image) const;
+
+  const Context& context_;
+  const Scene& scene_;
+  Plan plan_;
+  int largest_tile_;
+  Normalization normalization_;
+  std::vector<std::uint32_t> drawn_;
+  MeshBuffers mesh_;
+  std::optional<MediumBuffers> medium_;
+  std::optional<TextureBuffer> surfaces_;
+  std::optional<Table> table_;
+  float table_length_ = 1;  // in normalized units
+  std::optional<TextureBuffer> order_;
+  CellFaces faces_;
+  FragmentCounter counter_;
+  std::optional<Program> parallel_program_;
+  std::optional<Program> perspective_program_;
+  sort::CentroidSorter sorter_;
+};
+
+}  // namespace tetraglass::project::gl

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "project/scene.h"
+
+namespace tetraglass::project::gl {
+
+/// How a scene's numbers become floats: points relative to the centre of the mesh's bounds in units
+/// of half their diagonal, values so that the field's range becomes [-1, 1]. Monotonic, so equal
+/// values stay equal and greater ones stay at least as great.
+struct Normalization {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 1;      ///< half the diagonal of the bounds, in world units
+  double middle = 0;      ///< of the field's range
+  double half_range = 1;  ///< > 0; 1 for a constant field
+
+  /// The mesh has a drawable cell.
+  explicit Normalization(const Scene& scene);
+
+  /// Finite for finite points of the mesh.
+  [[nodiscard]] Eigen::Vector3f point(const Eigen::Vector3d& world) const;
+
+  /// Within [-1, 1] for values of the field; others may lie outside, but are finite.
+  [[nodiscard]] float value(double value) const;
+
+  /// The inverse of `value`.
+  [[nodiscard]] double field_value(double normalized) const {
+    return middle + half_range * normalized;
+  }
+};
+
+}  // namespace tetraglass::project::gl

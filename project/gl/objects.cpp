@@ -1,0 +1,218 @@
+#include "project/gl/objects.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "project/gl/functions.inl"
+
+namespace tetraglass::project::gl {
+namespace {
+
+template <auto Member>
+void delete_names(const Context& context, unsigned name) {
+  (context.gl().*Member)(1, &name);
+}
+
+Name make_buffer(const Context& context) {
+  GLuint name = 0;
+  context.gl().CreateBuffers(1, &name);
+  return {context, name, &delete_names<&Functions::DeleteBuffers>};
+}
+
+Name make_texture(const Context& context, GLenum target) {
+  GLuint name = 0;
+  context.gl().CreateTextures(target, 1, &name);
+  return {context, name, &delete_names<&Functions::DeleteTextures>};
+}
+
+Name make_image(const Context& context, GLenum format, int width, int height) {
+  Name texture = make_texture(context, GL_TEXTURE_2D);
+  context.gl().TextureStorage2D(texture.get(), 1, format, width, height);
+  return texture;
+}
+
+Name make_framebuffer(const Context& context) {
+  GLuint name = 0;
+  context.gl().CreateFramebuffers(1, &name);
+  return {context, name, &delete_names<&Functions::DeleteFramebuffers>};
+}
+
+Name make_query(const Context& context) {
+  GLuint name = 0;
+  context.gl().CreateQueries(GL_SAMPLES_PASSED, 1, &name);
+  return {context, name, &delete_names<&Functions::DeleteQueries>};
+}
+
+Name make_vertex_array(const Context& context) {
+  GLuint name = 0;
+  context.gl().CreateVertexArrays(1, &name);
+  return {context, name, &delete_names<&Functions::DeleteVertexArrays>};
+}
+
+GLenum format_of(Texel texel) {
+  switch (texel) {
+    case Texel::r32f:
+      return GL_R32F;
+    case Texel::rgba32f:
+      return GL_RGBA32F;
+    case Texel::r32ui:
+      return GL_R32UI;
+    case Texel::rgba32ui:
+      return GL_RGBA32UI;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::size_t texel_bytes(Texel texel) {
+  return texel == Texel::r32f || texel == Texel::r32ui ? 4 : 16;
+}
+
+Buffer::Buffer(const Context& context) : name_(make_buffer(context)) {}
+
+void Buffer::upload(std::span<const std::byte> bytes) {
+  name_.context().gl().NamedBufferData(name_.get(), static_cast<GLsizeiptr>(bytes.size()),
+                                       bytes.data(), GL_STATIC_DRAW);
+  name_.context().check("filling a buffer");
+}
+
+TextureBuffer::TextureBuffer(const Context& context, Texel texel)
+    : texel_(texel), buffer_(context), texture_(make_texture(context, GL_TEXTURE_BUFFER)) {}
+
+void TextureBuffer::upload(std::span<const std::byte> bytes, const char* what) {
+  const Context& context = texture_.context();
+  const std::size_t texels = bytes.size() / texel_bytes(texel_);
+  if (texels > context.limits().texture_buffer_texels) {
+    throw base::UnavailableError(
+        fmt::format("{} {} are more than this OpenGL can hold ({}); use another --projector",
+                    texels, what, context.limits().texture_buffer_texels));
+  }
+  buffer_.upload(bytes);
+  context.gl().TextureBuffer(texture_.get(), format_of(texel_), buffer_.get());
+  context.check(fmt::format("handing the {} to the shaders", what));
+}
+
+void TextureBuffer::bind(int unit) const {
+  texture_.context().gl().BindTextureUnit(static_cast<GLuint>(unit), texture_.get());
+}
+
+Table::Table(const Context& context, std::array<int, 3> size, std::span<const float> rgba,
+             bool linear)
+    : texture_(make_texture(context, size[2] > 0 ? GL_TEXTURE_3D : GL_TEXTURE_2D)) {
+  const Functions& gl = context.gl();
+  const auto [width, height, depth] = size;
+  const int most = depth > 0 ? context.limits().table_3d : context.limits().table_2d;
+  if (std::max({width, height, depth}) > most) {
+    throw base::UnavailableError(
+        fmt::format("a table with an axis of {} samples is larger than this OpenGL can hold ({})",
+                    std::max({width, height, depth}), most));
+  }
+  const GLuint name = texture_.get();
+  if (depth > 0) {
+    gl.TextureStorage3D(name, 1, GL_RGBA32F, width, height, depth);
+    gl.TextureSubImage3D(name, 0, 0, 0, 0, width, height, depth, GL_RGBA, GL_FLOAT, rgba.data());
+  } else {
+    gl.TextureStorage2D(name, 1, GL_RGBA32F, width, height);
+    gl.TextureSubImage2D(name, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+  }
+  const GLint filter = linear ? GL_LINEAR : GL_NEAREST;
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    gl.TextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
+  }
+  context.check("handing a table to the shaders");
+}
+
+void Table::bind(int unit) const {
+  texture_.context().gl().BindTextureUnit(static_cast<GLuint>(unit), texture_.get());
+}
+
+Target::Target(const Context& context, Texel color, bool depth, int width, int height)
+    : texel_(color),
+      color_texture_(make_image(context, format_of(color), width, height)),
+      framebuffer_(make_framebuffer(context)) {
+  const Functions& gl = context.gl();
+  gl.NamedFramebufferTexture(framebuffer_.get(), GL_COLOR_ATTACHMENT0, color_texture_.get(), 0);
+  if (depth) {
+    depth_texture_ = make_image(context, GL_DEPTH_COMPONENT32F, width, height);
+    gl.NamedFramebufferTexture(framebuffer_.get(), GL_DEPTH_ATTACHMENT, depth_texture_->get(), 0);
+  }
+  context.check(fmt::format("making a picture of {} x {} pixels", width, height));
+  if (gl.CheckNamedFramebufferStatus(framebuffer_.get(), GL_FRAMEBUFFER) !=
+      GL_FRAMEBUFFER_COMPLETE) {
+    throw base::UnavailableError("this OpenGL cannot draw into pictures of 32-bit floats");
+  }
+}
+
+void Target::begin(float value, int width, int height) const {
+  const Functions& gl = framebuffer_.context().gl();
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  gl.Viewport(0, 0, width, height);
+  const GLfloat color[4] = {value, value, value, value};
+  gl.ClearNamedFramebufferfv(framebuffer_.get(), GL_COLOR, 0, color);
+  const GLfloat farthest = 1;
+  if (depth_texture_) gl.ClearNamedFramebufferfv(framebuffer_.get(), GL_DEPTH, 0, &farthest);
+}
+
+void Target::read(int width, int height, float* pixels, int stride) const {
+  const Functions& gl = framebuffer_.context().gl();
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  gl.PixelStorei(GL_PACK_ROW_LENGTH, stride);
+  gl.ReadPixels(0, 0, width, height, texel_ == Texel::r32f ? GL_RED : GL_RGBA, GL_FLOAT, pixels);
+  framebuffer_.context().check("reading the picture back");
+}
+
+FragmentCounter::FragmentCounter(const Context& context) : query_(make_query(context)) {}
+
+void FragmentCounter::begin() const {
+  query_.context().gl().BeginQuery(GL_SAMPLES_PASSED, query_.get());
+}
+
+void FragmentCounter::end() const {
+  query_.context().gl().EndQuery(GL_SAMPLES_PASSED);
+}
+
+std::uint64_t FragmentCounter::count() const {
+  GLuint64 result = 0;
+  query_.context().gl().GetQueryObjectui64v(query_.get(), GL_QUERY_RESULT, &result);
+  return result;
+}
+
+namespace {
+
+// As many cells as 16-bit indices reach: the same indices serve every run, and stay in the cache.
+constexpr std::size_t kRun = 16384;
+
+// Counter-clockwise from outside (mesh::kFaceVertices).
+constexpr std::array<std::uint16_t, 12> kFaceIndices = {1, 2, 3, 0, 3, 2, 0, 1, 3, 0, 2, 1};
+
+}  // namespace
+
+CellFaces::CellFaces(const Context& context)
+    : indices_(context), vertex_array_(make_vertex_array(context)) {
+  std::vector<std::uint16_t> indices;
+  indices.reserve(kRun * kFaceIndices.size());
+  for (std::size_t cell = 0; cell < kRun; ++cell) {
+    for (const std::uint16_t index : kFaceIndices) {
+      indices.push_back(static_cast<std::uint16_t>(4 * cell + index));
+    }
+  }
+  indices_.upload(std::as_bytes(std::span(indices)));
+  context.gl().VertexArrayElementBuffer(vertex_array_.get(), indices_.get());
+}
+
+void CellFaces::draw(std::size_t count) const {
+  const Functions& gl = vertex_array_.context().gl();
+  gl.BindVertexArray(vertex_array_.get());
+  for (std::size_t first = 0; first < count; first += kRun) {
+    const std::size_t run = std::min(kRun, count - first);
+    gl.DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(run * kFaceIndices.size()),
+                              GL_UNSIGNED_SHORT, nullptr, static_cast<GLint>(4 * first));
+  }
+}
+
+}  // namespace tetraglass::project::gl

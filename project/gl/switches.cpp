@@ -1,0 +1,63 @@
+#include "project/gl/switches.h"
+
+namespace tetraglass::project::gl {
+namespace {
+
+const char* mode_switch(const Scene& scene) {
+  switch (scene.mode) {
+    case Mode::full:
+      return "MODE_FULL";
+    case Mode::emission:
+      return "MODE_EMISSION";
+    case Mode::absorption:
+      return "MODE_ABSORPTION";
+    case Mode::mip:
+      return scene.mip_of == MipOf::transfer ? "MODE_MIP_TRANSFER" : "MODE_MIP_FIELD";
+    case Mode::iso:
+      return "MODE_ISO";
+    case Mode::thickness:
+      return "MODE_THICKNESS";
+  }
+  return "";
+}
+
+bool is_field_maximum(const Scene& scene) {
+  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
+}
+
+}  // namespace
+
+bool draws_opaque_surfaces(const Scene& scene) {
+  return scene.mode == Mode::iso && is_commutative(scene);
+}
+
+bool has_scalar_target(const Scene& scene) {
+  return scene.mode == Mode::thickness || scene.mode == Mode::absorption || is_field_maximum(scene);
+}
+
+bool reads_medium(const Scene& scene, const Plan& plan) {
+  return plan.integrator == Integrator::exact && scene.mode != Mode::thickness &&
+         scene.mode != Mode::iso && !is_field_maximum(scene);
+}
+
+std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, bool parallel,
+                                         bool ordered) {
+  std::vector<std::string> names = {mode_switch(scene)};
+  if (parallel) names.emplace_back("PARALLEL");
+  if (ordered) names.emplace_back("ORDERED");
+  if (has_scalar_target(scene)) names.emplace_back("SCALAR_TARGET");
+  if (scene.mode != Mode::thickness) {
+    names.emplace_back(scene.field.location == mesh::Location::cell ? "CELL_FIELD" : "VALUES");
+  }
+  if (reads_medium(scene, plan)) names.emplace_back("NEEDS_MEDIUM");
+  if (plan.integrator == Integrator::table2d) names.emplace_back("TABLE_2D");
+  if (plan.integrator == Integrator::table3d) names.emplace_back("TABLE_3D");
+  if (scene.mode == Mode::iso) {
+    if (draws_opaque_surfaces(scene)) names.emplace_back("OPAQUE");
+    if (scene.shading == Shading::flat) names.emplace_back("SHADING_FLAT");
+    if (scene.shading == Shading::smooth) names.emplace_back("SHADING_SMOOTH");
+  }
+  return names;
+}
+
+}  // namespace tetraglass::project::gl

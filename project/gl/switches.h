@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "project/plan.h"
+#include "project/scene.h"
+
+/// What a scene calls for; everything else is left out of shaders, buffers and target.
+namespace tetraglass::project::gl {
+
+/// Mode iso with surfaces that hide what is behind them: the depth buffer stands for an order.
+[[nodiscard]] bool draws_opaque_surfaces(const Scene& scene);
+
+/// One number per pixel: length, optical depth or largest value.
+[[nodiscard]] bool has_scalar_target(const Scene& scene);
+
+/// Whether the fragment stage integrates the transfer function itself.
+[[nodiscard]] bool reads_medium(const Scene& scene, const Plan& plan);
+
+/// The `#define`s of the shaders. `ordered`: cells come in the order of a list.
+[[nodiscard]] std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan,
+                                                       bool parallel, bool ordered);
+
+}  // namespace tetraglass::project::gl

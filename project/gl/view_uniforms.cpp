@@ -1,0 +1,70 @@
+#include "project/gl/view_uniforms.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetraglass::project::gl {
+
+ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalization)
+    : parallel_(frame.parallel()),
+      axes_(frame.axes()),
+      origin_(frame.to_camera(normalization.center) / normalization.radius),
+      pitch_(2 * frame.half_height() / frame.height()),
+      middle_(0.5 * frame.width(), 0.5 * frame.height()),
+      focus_(origin_.z()),
+      nearest_depth_(origin_.z() - 1),
+      farthest_depth_(origin_.z() + 1) {
+  // The mesh lies in the unit sphere around the origin but for the rounding of its points.
+  constexpr double kRounding = 1e-6;
+  nearest_depth_ -= kRounding;
+  farthest_depth_ += kRounding;
+  if (parallel_) {
+    pitch_ /= normalization.radius;
+  } else {
+    // Depths beyond the focus lose digits (farthest / focus): at most a factor of 2 this way.
+    focus_ = std::max(focus_, 1.0);
+    nearest_depth_ = std::max(nearest_depth_, 0.0);
+  }
+}
+
+// Z of face_planes.glsl, not beyond what floats hold at the eye.
+double ViewUniforms::linear_depth(double depth) const {
+  if (parallel_) return depth - focus_;
+  return depth > 0 ? std::max((depth - focus_) * focus_ / depth, -1e30) : -1e30;
+}
+
+void ViewUniforms::set(const Program& program, const Tile& tile, int subpixel_bits) const {
+  program.set("axes", axes_);
+  program.set("origin", origin_);
+  program.set("pitch", pitch_);
+  program.set("middle", middle_);
+  program.set("focus", focus_);
+  program.set("tile_origin", Eigen::Vector2d(tile.x, tile.y));
+  program.set("tile_size", Eigen::Vector2d(tile.width, tile.height));
+
+  // Vertices are exact to 2^-25 sqrt(3) units, planes to 2^-24 of the distance from their anchor on
+  // the screen: twice as much moves a ray off any edge that it would meet but for rounding. Four
+  // times as far to the right as up, so that up counts where right does not.
+  const double pixels_per_unit = 1 / (parallel_ ? pitch_ : pitch_ * focus_);
+  const double up = std::ldexp(std::max(2 * middle_.maxCoeff(), pixels_per_unit), -23);
+  program.set("tie_shift", Eigen::Vector2d(4 * up, up));
+
+  // What the rasterizer rounds: to half a subpixel each way; before that to floats, of positions up
+  // to 16 tiles off (2^-20 tiles, and as much in the viewport transform). Twice that, since a
+  // needle's tip keeps half of it.
+  const double rounded =
+      std::sqrt(2.0) * (std::ldexp(0.5, -subpixel_bits) +
+                        std::ldexp(std::max(tile.width, tile.height), -19) + 4 * up);
+  program.set("margin", static_cast<float>(2 * rounded));
+
+  program.set("tile_corner", Eigen::Vector2f(tile.x, tile.y));
+  program.set("picture_middle", Eigen::Vector2f(middle_.cast<float>()));
+  program.set("pixel_pitch", static_cast<float>(pitch_));
+  program.set("focus_inverse", parallel_ ? 0.0F : static_cast<float>(1 / focus_));
+  program.set("nearest", static_cast<float>(linear_depth(nearest_depth_)));
+  program.set("farthest", static_cast<float>(linear_depth(farthest_depth_)));
+  program.set("depth_range",
+              Eigen::Vector2f(nearest_depth_ - focus_, 1 / (farthest_depth_ - nearest_depth_)));
+}
+
+}  // namespace tetraglass::project::gl
