@@ -24,9 +24,9 @@ using Eigen::Vector3d;
 // cos 2p = +-1; there the angular factor is 4/27.
 double orbital(const Vector3d& p) {
   constexpr double kDecay = 8;
-  static const double largest = 4.0 / 27.0 * std::pow(3 / kDecay, 6) * std::exp(-6.0);
+  static const double kLargest = 4.0 / 27.0 * std::pow(3 / kDecay, 6) * std::exp(-6.0);
   const double wave = p.z() * (p.x() * p.x() - p.y() * p.y());
-  return wave * wave * std::exp(-2 * kDecay * p.norm()) / largest;
+  return wave * wave * std::exp(-2 * kDecay * p.norm()) / kLargest;
 }
 
 double distance_from_origin(const Vector3d& p) {
@@ -199,6 +199,7 @@ constexpr std::array kSamples = {
 
 std::vector<std::string> sample_names() {
   std::vector<std::string> names;
+  names.reserve(kSamples.size());
   for (const Sample& sample : kSamples) names.emplace_back(sample.name);
   return names;
 }
