@@ -64,7 +64,8 @@ RampedSpan exact_span<RampedSpan>(const TransferFunction& tf, const Segment& seg
                                   double tolerance) {
   const RampedRadiance r = integrate_ramped(tf, segment, tolerance);
   const Color c = r.front + r.back;
-  return {{c[0], c[1], c[2], r.transmittance}, r.back[0], r.back[1], r.back[2], r.white_back};
+  return {c[0],      c[1],      c[2],      r.white_front + r.white_back,
+          r.back[0], r.back[1], r.back[2], r.white_back};
 }
 
 template <class Span>

@@ -10,9 +10,6 @@
 namespace tetraglass::preint {
 namespace {
 
-/// Far below the rounding of a float entry, 6e-8.
-constexpr double kFloatTolerance = 1e-9;
-
 /// Entries [length][back][front], RGBA, for all the lengths.
 std::vector<float> full_entries(const TransferFunction& tf, double low, double high, int n,
                                 const std::vector<double>& lengths, TableMethod method) {
@@ -47,9 +44,7 @@ std::vector<float> full_entries(const TransferFunction& tf, double low, double h
 Table2D slab_table(const TransferFunction& tf, double low, double high, double length, int n,
                    TableMethod method) {
   check_axis(low, high, n);
-  if (!(length >= 0) || !std::isfinite(length)) {
-    throw base::UsageError(fmt::format("the length of a segment cannot be {}", length));
-  }
+  check_length(length);
   return {n, low, high, full_entries(tf, low, high, n, {length}, method)};
 }
 

@@ -41,16 +41,19 @@ void evaluate(const SeriesInput& input, std::size_t quantities, double* spans) {
     const V depth = hn::Mul(scale, hn::LoadU(d, input.depth + cell));
     const V x = hn::Neg(hn::Min(depth, hn::Set(d, input.deepest)));
     // Horner's rule on four series side by side: the latency of one hides behind the others.
-    V q0 = hn::Zero(d), q1 = q0, q2 = q0, q3 = hn::Set(d, kInverse[terms]);
+    V q0 = hn::Zero(d), q1 = q0, q2 = q0, q3 = q0;
     for (std::size_t m = terms; m-- > 0;) {
       const double* moment = input.moments + m * quantities * input.count + cell;
       q0 = hn::MulAdd(q0, x, hn::LoadU(d, moment));
       q1 = hn::MulAdd(q1, x, hn::LoadU(d, moment + input.count));
       q2 = hn::MulAdd(q2, x, hn::LoadU(d, moment + 2 * input.count));
-      q3 = hn::MulAdd(q3, x, hn::Set(d, kInverse[m]));
+      q3 = hn::MulAdd(q3, x, hn::Set(d, kInverse[m + 1]));
     }
-    store(hn::Mul(q0, scale), hn::Mul(q1, scale), hn::Mul(q2, scale), q3, cell, 0);
-    if (quantities == kLightQuantities) continue;
+    const V opacity = hn::Neg(hn::Mul(x, q3));
+    const bool ramped = quantities == kRampedQuantities;
+    store(hn::Mul(q0, scale), hn::Mul(q1, scale), hn::Mul(q2, scale),
+          ramped ? opacity : hn::Sub(hn::Set(d, 1.0), opacity), cell, 0);
+    if (!ramped) continue;
     q0 = q1 = q2 = q3 = hn::Zero(d);
     for (std::size_t m = terms; m-- > 0;) {
       const double* moment = input.moments + (m * quantities + 3) * input.count + cell;

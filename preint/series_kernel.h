@@ -23,8 +23,8 @@ struct SeriesInput {
   return (cells + 7) / 8 * 8;
 }
 
-/// Per cell four doubles: three quantities and the transmittance; with seven quantities, then the
-/// other four. quantity = length * sum_m (-tau)^m moment[m], transmittance = sum_m (-tau)^m / m!,
+/// Per cell the doubles of a LightSpan or, with seven quantities, of a RampedSpan:
+/// quantity = length * sum_m (-tau)^m moment[m], opacity = -sum_{m > 0} (-tau)^m / m!,
 /// tau = length * depth. Uses the widest vectors of the machine it runs on; results differ between
 /// machines by rounding only (fused multiply-add).
 void evaluate_series(const SeriesInput& input, std::size_t quantities, double* spans);

@@ -20,11 +20,13 @@ inline LightSpan composite(const LightSpan& front, double /*front_cells*/, const
           t * back.transmittance};
 }
 
-/// The same with the light weighted by the distance from the front of the range, in cells; `white`
-/// is that of a white medium, whose unweighted light is the opacity.
+/// The same with the light weighted by the distance from the front of the range, in cells, too;
+/// `white` is that of a white medium, whose unweighted light is the opacity.
 struct RampedSpan {
-  LightSpan light;
-  double red = 0, green = 0, blue = 0, white = 0;
+  double red = 0, green = 0, blue = 0;
+  double opacity = 0;  ///< not the transmittance: thin ranges keep their relative accuracy
+  double ramped_red = 0, ramped_green = 0, ramped_blue = 0;
+  double ramped_white = 0;
 };
 
 /// Front over back. The ramp of the back part begins where the front part ends, so the number of
@@ -32,13 +34,16 @@ struct RampedSpan {
 /// C_W = (C_G - i C_1) / (j - i), and loses the digits of i / (j - i) where a short range lies far
 /// from the origin; a ramp per range cannot.)
 inline RampedSpan composite(const RampedSpan& front, double front_cells, const RampedSpan& back) {
-  const double t = front.light.transmittance;
+  const double t = 1 - front.opacity;
   const double shift = t * front_cells;
-  return {composite(front.light, front_cells, back.light),
-          front.red + t * back.red + shift * back.light.red,
-          front.green + t * back.green + shift * back.light.green,
-          front.blue + t * back.blue + shift * back.light.blue,
-          front.white + t * back.white + shift * (1 - back.light.transmittance)};
+  return {front.red + t * back.red,
+          front.green + t * back.green,
+          front.blue + t * back.blue,
+          front.opacity + t * back.opacity,
+          front.ramped_red + t * back.ramped_red + shift * back.red,
+          front.ramped_green + t * back.ramped_green + shift * back.green,
+          front.ramped_blue + t * back.ramped_blue + shift * back.blue,
+          front.ramped_white + t * back.ramped_white + shift * back.opacity};
 }
 
 /// Incremental subrange integration (lum2004, "Efficient Computation of Traditional Lookup Tables",

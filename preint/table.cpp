@@ -49,6 +49,12 @@ void check_axis(double low, double high, int n) {
   }
 }
 
+void check_length(double length) {
+  if (!(length >= 0) || !std::isfinite(length)) {
+    throw base::UsageError(fmt::format("the length of a segment cannot be {}", length));
+  }
+}
+
 double table_node(double low, double high, int n, int i) {
   const double t = static_cast<double>(i) / (n - 1);
   return low * (1 - t) + high * t;

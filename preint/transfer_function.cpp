@@ -18,6 +18,15 @@ void check(const std::vector<ControlPoint>& points) {
       throw base::InputError(
           fmt::format("points[{}]: value, color and extinction must be finite", i));
     }
+    const Material& m = p.material;
+    for (const double k : {m.ambient, m.diffuse, m.specular, m.shininess}) {
+      if (!(k >= 0) || !std::isfinite(k)) {
+        throw base::InputError(fmt::format(
+            "points[{}]: ambient, diffuse, specular and shininess must be finite and not negative, "
+            "one is {}",
+            i, k));
+      }
+    }
     if (p.extinction < 0) {
       throw base::InputError(
           fmt::format("points[{}]: extinction must not be negative, it is {}", i, p.extinction));
@@ -87,6 +96,27 @@ double TransferFunction::max_extinction(double low, double high) const {
   double result = std::max(at(low).extinction, at(high).extinction);
   for (std::size_t i = first; i < end; ++i) result = std::max(result, points_[i].extinction);
   return result;
+}
+
+Material TransferFunction::material_at(double value) const {
+  const std::size_t i = interval_above(value);
+  if (i == 0) return points_.front().material;
+  if (i == points_.size()) return points_.back().material;
+  const double span = points_[i].value - points_[i - 1].value;
+  const double a = (points_[i].value - value) / span;
+  const double b = (value - points_[i - 1].value) / span;
+  const Material& lower = points_[i - 1].material;
+  const Material& upper = points_[i].material;
+  return {a * lower.ambient + b * upper.ambient, a * lower.diffuse + b * upper.diffuse,
+          a * lower.specular + b * upper.specular, a * lower.shininess + b * upper.shininess};
+}
+
+TransferFunction materials_as_colors(const TransferFunction& tf) {
+  std::vector<ControlPoint> points = tf.points();
+  for (ControlPoint& p : points) {
+    p.color = {p.material.ambient, p.material.diffuse, p.material.specular};
+  }
+  return TransferFunction(std::move(points));
 }
 
 TransferFunction mirrored(const TransferFunction& tf) {

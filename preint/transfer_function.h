@@ -11,10 +11,19 @@ namespace tetraglass::preint {
 /// Linear RGB.
 using Color = Eigen::Array3d;
 
+/// How a shaded color answers to light (Phong; meissner2002 Eq. 1).
+struct Material {
+  double ambient = 0.1;
+  double diffuse = 0.7;
+  double specular = 0.2;
+  double shininess = 32;
+};
+
 struct ControlPoint {
   double value = 0;
   Color color = Color::Zero();
   double extinction = 0;  ///< kappa >= 0, per unit length of the mesh
+  Material material = {};
 };
 
 /// What the transfer function gives for one value.
@@ -39,6 +48,9 @@ class TransferFunction {
   /// Cost of each of the following: logarithmic in the number of control points.
   [[nodiscard]] Medium at(double value) const;
 
+  /// Linear between control points like the color; at a jump that of the upper point.
+  [[nodiscard]] Material material_at(double value) const;
+
   /// The limit from below (at a jump: the first of its two points).
   [[nodiscard]] Medium below(double value) const;
 
@@ -59,13 +71,17 @@ class TransferFunction {
   std::vector<ControlPoint> points_;
 };
 
+/// The same extinction with ambient, diffuse and specular in the place of red, green and blue: what
+/// integrates colors then integrates materials.
+[[nodiscard]] TransferFunction materials_as_colors(const TransferFunction& tf);
+
 /// The function of the negated value: what rises along a ray in `tf` falls in its mirror image.
 [[nodiscard]] TransferFunction mirrored(const TransferFunction& tf);
 
-/// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}). The
-/// optional keys "ambient", "diffuse", "specular" and "shininess" of a point are checked but not
-/// kept: nothing shades by them yet. Throws ReadError (missing, not JSON with line and column,
-/// wrong key with the right ones, wrong numbers with the point).
+/// Reads the JSON form ({"points": [{"value":, "color": [r, g, b], "extinction":}, ...]}). A point
+/// may have "ambient", "diffuse", "specular" and "shininess" (see Material). Throws ReadError
+/// (missing, not JSON with line and column, wrong key with the right ones, wrong numbers with the
+/// point).
 [[nodiscard]] TransferFunction read_transfer_function(const std::string& file);
 
 /// The names that `preset` knows, for help texts and suggestions.

@@ -89,8 +89,6 @@ class Reader {
   }
 
   ControlPoint point(const Json& json, const std::string& where) const {
-    static const std::vector<std::string> kMaterial = {"ambient", "diffuse", "specular",
-                                                       "shininess"};
     static const std::vector<std::string> kKnown = {"value",   "color",    "extinction", "ambient",
                                                     "diffuse", "specular", "shininess"};
     require_object(json, where);
@@ -106,12 +104,14 @@ class Reader {
       result.color[static_cast<long>(channel)] =
           number(color[channel], fmt::format("{}.color[{}]", where, channel));
     }
-    for (const std::string& key : kMaterial) {
+    const auto optional = [&](const char* key, double& coefficient) {
       const auto found = json.find(key);
-      if (found != json.end() && !(number(*found, fmt::format("{}.{}", where, key)) >= 0)) {
-        fail("{}.{} must not be negative", where, key);
-      }
-    }
+      if (found != json.end()) coefficient = number(*found, fmt::format("{}.{}", where, key));
+    };
+    optional("ambient", result.material.ambient);
+    optional("diffuse", result.material.diffuse);
+    optional("specular", result.material.specular);
+    optional("shininess", result.material.shininess);
     return result;
   }
 

@@ -47,17 +47,24 @@ TEST_F(TransferFunctionFile, ReadsPoints) {
   EXPECT_EQ(tf.at(0.5).extinction, 2);
 }
 
-TEST_F(TransferFunctionFile, AllowsMaterials) {
-  const std::string material =
-      R"("ambient": 0.1, "diffuse": 0.7, "specular": 0.2, "shininess": 32)";
-  EXPECT_NO_THROW(
-      read(R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, )" + material + "}]}"));
-  EXPECT_THAT(
-      error(R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, "diffuse": "x"}]})"),
-      HasSubstr("points[0].diffuse must be a number, not string"));
-  EXPECT_THAT(
-      error(R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, "ambient": -1}]})"),
-      HasSubstr("points[0].ambient must not be negative"));
+TEST_F(TransferFunctionFile, ReadsMaterials) {
+  const TransferFunction tf = read(
+      R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, "ambient": 0.3, "diffuse": 0.5,
+                      "specular": 0.6, "shininess": 10},
+                     {"value": 1, "color": [1, 1, 1], "extinction": 1}]})");
+  const Material m = tf.material_at(0.5);  // half way to the defaults 0.1, 0.7, 0.2, 32
+  EXPECT_DOUBLE_EQ(m.ambient, 0.2);
+  EXPECT_DOUBLE_EQ(m.diffuse, 0.6);
+  EXPECT_DOUBLE_EQ(m.specular, 0.4);
+  EXPECT_DOUBLE_EQ(m.shininess, 21);
+  EXPECT_EQ(tf.material_at(-1).shininess, 10);
+  EXPECT_EQ(tf.material_at(1).shininess, 32);
+  EXPECT_TRUE((materials_as_colors(tf).at(0).color == Color(0.3, 0.5, 0.6)).all());
+
+  const std::string point = R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, )";
+  EXPECT_THAT(error(point + R"("diffuse": "x"}]})"),
+              HasSubstr("points[0].diffuse must be a number, not string"));
+  EXPECT_THAT(error(point + R"("ambient": -1}]})"), HasSubstr("points[0]: ambient, diffuse"));
 }
 
 TEST_F(TransferFunctionFile, ErrorsSayWhere) {
