@@ -61,7 +61,13 @@ struct RenderArguments {
   mesh::ImportOptions import;
 };
 
-project::Camera make_camera(const RenderArguments& arguments, const mesh::Box& box, double aspect) {
+/// Whether z is no good as the up direction: less than a thousandth of the gaze goes across it.
+bool is_along_z(const Eigen::Vector3d& gaze) {
+  return gaze.head<2>().stableNorm() <= 1e-3 * std::abs(gaze.z());
+}
+
+project::Camera make_camera(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                            double aspect) {
   if (!arguments.fov.empty() && !arguments.ortho.empty()) {
     throw base::UsageError(
         "--fov is for perspective, --ortho for parallel views: give one of them");
@@ -77,18 +83,19 @@ project::Camera make_camera(const RenderArguments& arguments, const mesh::Box& b
     throw base::UsageError("--fov must lie between 0 and 180 degrees (exclusive)");
   const Eigen::Vector3d direction =
       parse_direction(arguments.view.empty() ? "1,0.8,0.6" : arguments.view, "--view");
-  project::Camera camera =
-      project::frame_camera(box, direction, Eigen::Vector3d::UnitZ(), fov, aspect);
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if (!arguments.up.empty()) {
+    up = parse_vector(arguments.up, "--up");
+  } else if (arguments.eye.empty() && is_along_z(direction)) {
+    up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
+  }
+  project::Camera camera = project::frame_camera(mesh.points, direction, up, fov, aspect);
   if (!arguments.eye.empty()) {
     camera.eye = parse_vector(arguments.eye, "--eye");
-    if (!arguments.target.empty()) camera.target = parse_vector(arguments.target, "--target");
-  }
-  if (!arguments.up.empty()) {
-    camera.up = parse_vector(arguments.up, "--up");
-  } else if ((camera.target - camera.eye)
-                 .cross(camera.up)
-                 .isZero(1e-3 * (camera.target - camera.eye).norm())) {
-    camera.up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
+    camera.target = arguments.target.empty() ? mesh::bounds(mesh).center()
+                                             : parse_vector(arguments.target, "--target");
+    if (arguments.up.empty() && is_along_z(camera.target - camera.eye))
+      camera.up = Eigen::Vector3d::UnitY();
   }
   camera.parallel = !arguments.ortho.empty();
   if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
@@ -193,7 +200,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   } else {
     refuse_iso_options(arguments);
   }
-  scene.camera = make_camera(arguments, box, static_cast<double>(scene.width) / scene.height);
+  scene.camera = make_camera(arguments, mesh, static_cast<double>(scene.width) / scene.height);
   return scene;
 }
 

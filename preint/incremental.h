@@ -4,9 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
-
+#include "base/parallel.h"
 #include "preint/cell_series.h"
 #include "preint/table.h"
 
@@ -61,13 +59,9 @@ void incremental_entries(const TransferFunction& tf, double low, double high, in
     std::vector<Span> run;  // [diagonal in the run][back]
   };
   const auto size = static_cast<std::size_t>(n);
-  oneapi::tbb::enumerable_thread_specific<Memory> memories([&] {
-    return Memory{std::vector<Span>(upwards.cells().padded()), std::vector<Span>(size - 1),
-                  std::vector<Span>(kRun * size)};
-  });
   const int runs = (n - 1 + kRun - 1) / kRun;
-  const auto crossing_run = [&](std::size_t l, const Crossing<Span>& crossing, int run) {
-    Memory& memory = memories.local();
+  const auto crossing_run = [&](std::size_t l, const Crossing<Span>& crossing, int run,
+                                Memory& memory) {
     const int first = 1 + run * kRun;  // the narrowest diagonal
     const int last = std::min(first + kRun, n) - 1;
     for (int d = first; d <= last; ++d) {
@@ -85,18 +79,22 @@ void incremental_entries(const TransferFunction& tf, double low, double high, in
       }
     }
   };
-  oneapi::tbb::parallel_for(
-      std::size_t{0}, lengths.size() * static_cast<std::size_t>(runs), [&](std::size_t task) {
-        const std::size_t l = task / static_cast<std::size_t>(runs);
-        const int run = static_cast<int>(task % static_cast<std::size_t>(runs));
-        crossing_run(l, upwards, run);
-        crossing_run(l, downwards, run);
-        if (run > 0) return;
-        for (int i = 0; i < n; ++i) {
-          const double value = table_node(low, high, n, i);
-          write(l, i, i, exact_span<Span>(tf, {value, value, lengths[l]}, tolerance), 1);
-        }
-      });
+  const auto task_count = lengths.size() * static_cast<std::size_t>(runs);
+  base::parallel_ranges(task_count, 1, [&](std::size_t begin, std::size_t end) {
+    Memory memory{std::vector<Span>(upwards.cells().padded()), std::vector<Span>(size - 1),
+                  std::vector<Span>(kRun * size)};
+    for (std::size_t task = begin; task < end; ++task) {
+      const std::size_t l = task / static_cast<std::size_t>(runs);
+      const int run = static_cast<int>(task % static_cast<std::size_t>(runs));
+      crossing_run(l, upwards, run, memory);
+      crossing_run(l, downwards, run, memory);
+      if (run > 0) continue;
+      for (int i = 0; i < n; ++i) {
+        const double value = table_node(low, high, n, i);
+        write(l, i, i, exact_span<Span>(tf, {value, value, lengths[l]}, tolerance), 1);
+      }
+    }
+  });
 }
 
 }  // namespace tetraglass::preint

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "base/errors.h"
 
 namespace tetraglass::project {
 namespace {
+
+constexpr double kMargin =
+    1 / 0.9;  // the part of the picture that a framed scene fills, upside down
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -15,20 +20,64 @@ double radians(double degrees) {
 
 }  // namespace
 
-Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
+Camera frame_camera(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& direction,
                     const Eigen::Vector3d& up, double fov_degrees, double aspect) {
-  // The sphere around the box always fits, from whichever side it is seen.
-  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
-  const double radius = diagonal > 0 ? diagonal / 2 : 1.0;
-  const double half = radians(fov_degrees) / 2;
-  const double narrow = aspect < 1 ? std::atan(std::tan(half) * aspect) : half;
+  const Eigen::Vector3d away = -direction.stableNormalized();
+  const Eigen::Vector3d right = away.cross(up).stableNormalized();
+  Eigen::Matrix3d axes;
+  axes << right.transpose(), right.cross(away).transpose(), away.transpose();
+
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) {
+    if (point.allFinite()) box.extend(point);
+  }
+  const Eigen::Vector3d center = box.isEmpty() ? Eigen::Vector3d::Zero().eval() : box.center();
+  const double half_slope = std::tan(radians(fov_degrees) / 2);
+  const Eigen::Array2d slope(half_slope * aspect / kMargin, half_slope / kMargin);
+
+  // A point (x, y, z) in the camera's axes is inside the picture of an eye at (o, -d) if |x - o| <=
+  // slope (z + d): the largest x - slope z and -x - slope z of all points bound slope d + o and
+  // slope d - o from below.
+  Eigen::Array2d high = Eigen::Array2d::Constant(-std::numeric_limits<double>::infinity());
+  Eigen::Array2d low = high;
+  Eigen::AlignedBox3d extent;  // in the camera's axes
+  for (const Eigen::Vector3d& point : points) {
+    if (!point.allFinite()) continue;
+    const Eigen::Vector3d p = axes * (point - center);
+    extent.extend(p);
+    high = high.max(p.head<2>().array() - slope * p.z());
+    low = low.max(-p.head<2>().array() - slope * p.z());
+  }
   Camera camera;
-  camera.target = box.isEmpty() ? Eigen::Vector3d::Zero().eval() : box.center();
-  camera.eye = camera.target + direction.stableNormalized() * (radius / std::sin(narrow));
   camera.up = up;
   camera.fov_degrees = fov_degrees;
-  camera.ortho_height = 2 * radius / std::min(1.0, aspect);
+  const double size = extent.isEmpty() ? 0 : extent.sizes().maxCoeff();
+  if (!(size > 0)) {  // nothing, or a single point
+    camera.target = center;
+    camera.eye = center - away;
+    camera.ortho_height = 1;
+    return camera;
+  }
+  // Far enough to be outside, even where the points lie on a line along the view.
+  const double distance =
+      std::max(((high + low) / (2 * slope)).maxCoeff(), size * 1e-3 - extent.min().z());
+  const Eigen::Vector2d offset = (high - low) / 2;
+  camera.eye = center + axes.transpose() * Eigen::Vector3d(offset.x(), offset.y(), -distance);
+  camera.target = camera.eye + away * distance;
+  // A parallel view must hold the extent about the same axis.
+  const Eigen::Array2d half =
+      (extent.max().head<2>() - offset).array().max((offset - extent.min().head<2>()).array());
+  camera.ortho_height = 2 * kMargin * std::max({half.y(), half.x() / aspect, size * 1e-3});
   return camera;
+}
+
+Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
+                    const Eigen::Vector3d& up, double fov_degrees, double aspect) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8 && !box.isEmpty(); ++i) {
+    corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  }
+  return frame_camera(corners, direction, up, fov_degrees, aspect);
 }
 
 Frame::Frame(const Camera& camera, int width, int height)

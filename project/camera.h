@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -17,8 +19,16 @@ struct Camera {
   double ortho_height = 1;  ///< height of the picture in world units, parallel only
 };
 
-/// A camera that sees all of `box` from `direction` (from the target towards the eye; need not be
-/// unit length), in a picture of the given aspect (width / height).
+/// A camera that looks along `-direction` (which points from the scene to the eye; need not be of
+/// unit length) and sees all of `points` as large as they fit into a picture of the given aspect
+/// (width / height), with a margin of a twentieth on each side. Points that are not finite are
+/// passed over. `up` must not be parallel to `direction`. Both `fov_degrees` and `ortho_height` are
+/// set up.
+[[nodiscard]] Camera frame_camera(std::span<const Eigen::Vector3d> points,
+                                  const Eigen::Vector3d& direction, const Eigen::Vector3d& up,
+                                  double fov_degrees, double aspect);
+
+/// The same for the corners of a box.
 [[nodiscard]] Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
                                   const Eigen::Vector3d& up, double fov_degrees, double aspect);
 

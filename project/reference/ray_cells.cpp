@@ -77,15 +77,18 @@ void RayCells::bin_cells() {
     // One pixel more on every side covers the rounding of the projection.
     const Eigen::Vector2d first = frame_.pixel({u.low, v.high}).array() - 1;
     const Eigen::Vector2d last = frame_.pixel({u.high, v.low}).array() + 1;
-    const auto tile = [](double pixel, int tiles) {
-      return static_cast<int>(
-          std::clamp(std::floor(pixel / kTile), -1.0, static_cast<double>(tiles)));
+    const auto within = [](double pixel, int count) {
+      return static_cast<std::int32_t>(std::clamp(pixel, -1.0, static_cast<double>(count)));
     };
-    const int x_end = std::min(tile(last.x(), tiles_x_), tiles_x_ - 1);
-    const int y_end = std::min(tile(last.y(), tiles_y_), tiles_y_ - 1);
-    for (int y = std::max(0, tile(first.y(), tiles_y_)); y <= y_end; ++y) {
-      for (int x = std::max(0, tile(first.x(), tiles_x_)); x <= x_end; ++x) {
-        tile_cells_[static_cast<std::size_t>(y * tiles_x_ + x)].push_back(cell);
+    const TileCell bounds = {
+        cell, std::max(0, within(std::floor(first.x()), frame_.width())),
+        std::max(0, within(std::floor(first.y()), frame_.height())),
+        std::min(within(std::ceil(last.x()), frame_.width()), frame_.width() - 1),
+        std::min(within(std::ceil(last.y()), frame_.height()), frame_.height() - 1)};
+    if (bounds.first_x > bounds.last_x || bounds.first_y > bounds.last_y) continue;
+    for (int y = bounds.first_y / kTile; y <= bounds.last_y / kTile; ++y) {
+      for (int x = bounds.first_x / kTile; x <= bounds.last_x / kTile; ++x) {
+        tile_cells_[static_cast<std::size_t>(y * tiles_x_ + x)].push_back(bounds);
       }
     }
   }
@@ -191,9 +194,10 @@ void RayCells::segments(int x, int y, std::vector<RaySegment>& result) const {
   result.clear();
   const Eigen::Vector2d plane = frame_.image_plane(x, y);
   RaySegment segment;
-  for (const std::uint32_t cell :
-       tile_cells_[static_cast<std::size_t>((y / kTile) * tiles_x_ + x / kTile)]) {
-    if (intersect(cell, plane, segment)) result.push_back(segment);
+  const auto tile = static_cast<std::size_t>((y / kTile) * tiles_x_ + x / kTile);
+  for (const TileCell& entry : tile_cells_[tile]) {
+    if (x < entry.first_x || x > entry.last_x || y < entry.first_y || y > entry.last_y) continue;
+    if (intersect(entry.cell, plane, segment)) result.push_back(segment);
   }
   std::stable_sort(result.begin(), result.end(), [](const RaySegment& a, const RaySegment& b) {
     return a.entry + a.exit < b.entry + b.exit;

@@ -47,12 +47,21 @@ class RayCells {
                               const Eigen::Vector2d& plane) const;
   void bin_cells();
 
+  /// A cell with the pixels that its image can touch.
+  struct TileCell {
+    std::uint32_t cell = 0;
+    std::int32_t first_x = 0;
+    std::int32_t first_y = 0;
+    std::int32_t last_x = 0;
+    std::int32_t last_y = 0;
+  };
+
   const Scene& scene_;
   Frame frame_;
   std::vector<Eigen::Vector3d> points_;
   int tiles_x_;
   int tiles_y_;
-  std::vector<std::vector<std::uint32_t>> tile_cells_;
+  std::vector<std::vector<TileCell>> tile_cells_;
 };
 
 }  // namespace tetraglass::project

@@ -20,7 +20,7 @@
 namespace tetraglass::project {
 namespace {
 
-constexpr int kSize = 192;  // pixels each way
+constexpr int kSize = 128;  // pixels each way
 
 struct View {
   std::string name;
@@ -137,7 +137,7 @@ class Agreement : public testing::Test {
 };
 
 TEST_F(Agreement, Sphere) {
-  compare_all("sphere", mesh::make_sample("sphere", 40000), "");
+  compare_all("sphere", mesh::make_sample("sphere"), "");
 }
 
 TEST_F(Agreement, BluntFin) {
