@@ -1,8 +1,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "preint/incremental.h"
 #include "preint/table.h"
 #include "preint/table_axis.h"
@@ -27,13 +29,15 @@ std::vector<float> full_entries(const TransferFunction& tf, double low, double h
     incremental_entries<LightSpan>(tf, low, high, n, lengths, kFloatTolerance, write);
     return rgba;
   }
-  oneapi::tbb::parallel_for(std::size_t{0}, lengths.size() * size, [&](std::size_t row) {
-    const std::size_t l = row / size;
-    const int back = static_cast<int>(row % size);
-    const double to = table_node(low, high, n, back);
-    for (int front = 0; front < n; ++front) {
-      const double from = table_node(low, high, n, front);
-      write(l, front, back, exact_span<LightSpan>(tf, {from, to, lengths[l]}, kFloatTolerance), 1);
+  base::parallel_ranges(lengths.size() * size, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const double length = lengths[row / size];
+      const int back = static_cast<int>(row % size);
+      const double to = table_node(low, high, n, back);
+      for (int front = 0; front < n; ++front) {
+        const Segment segment{table_node(low, high, n, front), to, length};
+        write(row / size, front, back, exact_span<LightSpan>(tf, segment, kFloatTolerance), 1);
+      }
     }
   });
   return rgba;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include "base/parallel.h"
 #include "preint/incremental.h"
 #include "preint/table_axis.h"
 
@@ -34,11 +37,13 @@ void ramped_entries(const TransferFunction& tf, double low, double high, double 
         });
     return;
   }
-  oneapi::tbb::parallel_for(0, n, [&](int back) {
-    for (int front = 0; front < n; ++front) {
-      const Segment segment{table_node(low, high, n, front), table_node(low, high, n, back),
-                            length};
-      write(front, back, exact_span<RampedSpan>(tf, segment, kFloatTolerance));
+  base::parallel_ranges(static_cast<std::size_t>(n), 1, [&](std::size_t begin, std::size_t end) {
+    for (int back = static_cast<int>(begin); back < static_cast<int>(end); ++back) {
+      const double to = table_node(low, high, n, back);
+      for (int front = 0; front < n; ++front) {
+        const Segment segment{table_node(low, high, n, front), to, length};
+        write(front, back, exact_span<RampedSpan>(tf, segment, kFloatTolerance));
+      }
     }
   });
 }
