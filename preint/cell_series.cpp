@@ -6,8 +6,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "base/parallel.h"
 #include "preint/gauss.h"
 #include "preint/segment_pieces.h"
 #include "preint/series_kernel.h"
@@ -50,6 +49,34 @@ int terms_for(double depth, double tolerance) {
   return terms;
 }
 
+/// The moments [m * quantities + quantity] of a cell of unit length and this optical depth.
+template <class Q>
+std::array<double, kTerms * Q::kCount> unit_moments(const TransferFunction& tf, const Segment& unit,
+                                                    double depth) {
+  std::array<double, kTerms * Q::kCount> sums{};
+  if (depth == 0) return sums;
+  double before = 0;    // optical depth in front of the piece
+  double position = 0;  // of the front of the piece in the cell
+  for_each_piece(tf, unit, [&](const Piece& piece) {
+    const OpticalExtinction k = optical_extinction(piece);
+    const double slope = k.back - k.front;
+    for (const GaussNode& node : kGauss14) {
+      const double x = node.x;
+      const Color color = (1 - x) * piece.front.color + x * piece.back.color;
+      const auto values = Q::at(color, std::min(1.0, position + x * piece.length));
+      const double t = (before + x * (k.front + 0.5 * slope * x)) / depth;
+      double weight = node.weight * (k.front + slope * x);
+      for (std::size_t m = 0; m < kTerms; ++m) {
+        for (std::size_t q = 0; q < Q::kCount; ++q) sums[m * Q::kCount + q] += weight * values[q];
+        weight *= t / static_cast<double>(m + 1);
+      }
+    }
+    before += k.depth();
+    position += piece.length;
+  });
+  return sums;
+}
+
 }  // namespace
 
 template <>
@@ -76,33 +103,14 @@ CellSeries<Span>::CellSeries(const TransferFunction& tf, const std::vector<doubl
       tolerance_(tolerance),
       by_depth_(nodes.size() - 1),
       depth_(padded_to_vectors(size())) {
-  using Q = Quantities<Span>;
-  moments_.resize(kTerms * Q::kCount * padded());
-  oneapi::tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t cell) {
-    const Segment unit{nodes[cell], nodes[cell + 1], 1};
-    depth_[cell] = optical_depth(tf, unit);
-    if (depth_[cell] == 0) return;
-    std::array<double, kTerms * Q::kCount> sums{};
-    double before = 0;    // optical depth in front of the piece
-    double position = 0;  // of the front of the piece in the cell
-    for_each_piece(tf, unit, [&](const Piece& piece) {
-      const OpticalExtinction k = optical_extinction(piece);
-      const double slope = k.back - k.front;
-      for (const GaussNode& node : kGauss14) {
-        const double x = node.x;
-        const Color color = (1 - x) * piece.front.color + x * piece.back.color;
-        const auto values = Q::at(color, std::min(1.0, position + x * piece.length));
-        const double t = (before + x * (k.front + 0.5 * slope * x)) / depth_[cell];
-        double weight = node.weight * (k.front + slope * x);
-        for (std::size_t m = 0; m < kTerms; ++m) {
-          for (std::size_t q = 0; q < Q::kCount; ++q) sums[m * Q::kCount + q] += weight * values[q];
-          weight *= t / static_cast<double>(m + 1);
-        }
-      }
-      before += k.depth();
-      position += piece.length;
-    });
-    for (std::size_t i = 0; i < sums.size(); ++i) moments_[i * padded() + cell] = sums[i];
+  moments_.resize(kTerms * Quantities<Span>::kCount * padded());
+  base::parallel_ranges(size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      const Segment unit{nodes[cell], nodes[cell + 1], 1};
+      depth_[cell] = optical_depth(tf, unit);
+      const auto moments = unit_moments<Quantities<Span>>(tf, unit, depth_[cell]);
+      for (std::size_t i = 0; i < moments.size(); ++i) moments_[i * padded() + cell] = moments[i];
+    }
   });
   std::iota(by_depth_.begin(), by_depth_.end(), std::size_t{0});
   std::sort(by_depth_.begin(), by_depth_.end(),

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "base/errors.h"
+#include "base/parallel.h"
 #include "preint/segment_integral.h"
 #include "preint/table_axis.h"
 
@@ -28,9 +28,11 @@ Table2D table_2d(double low, double high, int n, const Entry& entry) {
   check_axis(low, high, n);
   const auto size = static_cast<std::size_t>(n);
   Table2D table{n, low, high, std::vector<float>(4 * size * size)};
-  oneapi::tbb::parallel_for(0, n, [&](int b) {
-    float* row = &table.rgba[4 * size * static_cast<std::size_t>(b)];
-    fill_row(row, n, low, high, table_node(low, high, n, b), entry);
+  base::parallel_ranges(size, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const double back = table_node(low, high, n, static_cast<int>(b));
+      fill_row(&table.rgba[4 * size * b], n, low, high, back, entry);
+    }
   });
   return table;
 }

@@ -49,8 +49,8 @@ TEST_F(TransferFunctionFile, ReadsPoints) {
 
 TEST_F(TransferFunctionFile, ReadsMaterials) {
   const TransferFunction tf = read(
-      R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1, "ambient": 0.3, "diffuse": 0.5,
-                      "specular": 0.6, "shininess": 10},
+      R"({"points": [{"value": 0, "color": [1, 1, 1], "extinction": 1,
+                      "ambient": 0.3, "diffuse": 0.5, "specular": 0.6, "shininess": 10},
                      {"value": 1, "color": [1, 1, 1], "extinction": 1}]})");
   const Material m = tf.material_at(0.5);  // half way to the defaults 0.1, 0.7, 0.2, 32
   EXPECT_DOUBLE_EQ(m.ambient, 0.2);

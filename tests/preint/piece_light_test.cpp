@@ -1,0 +1,72 @@
+#include "preint/piece_light.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "preint/segment_integral.h"
+
+namespace tetraglass::preint {
+namespace {
+
+struct Lights {
+  std::vector<float> front, back, transmittance;
+};
+
+Lights lights(const std::vector<float>& k_front, const std::vector<float>& k_back, float deepest) {
+  const std::size_t n = k_front.size();
+  Lights result{std::vector<float>(n), std::vector<float>(n), std::vector<float>(n)};
+  piece_lights({k_front, k_back, result.front, result.back, result.transmittance}, deepest);
+  return result;
+}
+
+/// Red is the share of the front's color, green that of the back's.
+Radiance exact(float k_front, float k_back) {
+  const TransferFunction tf({{0, {1, 0, 0}, k_front}, {1, {0, 1, 0}, k_back}});
+  return integrate_full(tf, {0, 1, 1});
+}
+
+TEST(PieceLight, WithinAMillionthForEveryBound) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float deepest : {1e-3F, 0.28F, 1.9F, 8.8F, 16.0F, 200.0F, infinity}) {
+    std::vector<float> k_front, k_back;
+    const float most = std::isfinite(deepest) ? deepest : 1e15F;
+    for (int exponent = 0; exponent < 60; ++exponent) {
+      const float depth = most * std::pow(0.6F, static_cast<float>(exponent));
+      for (int i = 0; i <= 20; ++i) {
+        const float share = static_cast<float>(i) / 20;
+        k_front.push_back(2 * depth * share);
+        k_back.push_back(2 * depth * (1 - share));
+      }
+    }
+    k_front.insert(k_front.end(), {0.0F, 0.0F, 1e-38F});
+    k_back.insert(k_back.end(), {0.0F, 1e-38F, 0.0F});
+    const Lights r = lights(k_front, k_back, deepest);
+    for (std::size_t i = 0; i < k_front.size(); ++i) {
+      SCOPED_TRACE(testing::Message()
+                   << "bound " << deepest << " k " << k_front[i] << ", " << k_back[i]);
+      const Radiance e = exact(k_front[i], k_back[i]);
+      const double opacity = -std::expm1(-0.5 * (double(k_front[i]) + k_back[i]));
+      ASSERT_NEAR(r.front[i], e.color[0], 1e-6 * opacity + 1e-37);
+      ASSERT_NEAR(r.back[i], e.color[1], 1e-6 * opacity + 1e-37);
+      ASSERT_NEAR(r.transmittance[i], e.transmittance, 1e-6);
+    }
+  }
+}
+
+TEST(PieceLight, AnyNumberOfPieces) {
+  for (std::size_t n = 0; n < 70; ++n) {
+    const std::vector<float> k_front(n, 0.5F), k_back(n, 1.5F);
+    const Lights r = lights(k_front, k_back, 1);
+    const Radiance e = exact(0.5F, 1.5F);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_NEAR(r.front[i], e.color[0], 1e-6) << n << " pieces, piece " << i;
+      ASSERT_NEAR(r.back[i], e.color[1], 1e-6) << n << " pieces, piece " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetraglass::preint
