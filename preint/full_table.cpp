@@ -49,11 +49,11 @@ Table2D slab_table(const TransferFunction& tf, double low, double high, double l
                    TableMethod method) {
   check_axis(low, high, n);
   check_length(length);
-  return {n, low, high, full_entries(tf, low, high, n, {length}, method)};
+  return {n, low, high, full_entries(tf, low, high, n, {length}, method), {}};
 }
 
 Table3D full_table(const TransferFunction& tf, double low, double high, double max_length, int n,
-                   int m, TableMethod method) {
+                   int m, TableMethod method, LengthAxis axis) {
   check_axis(low, high, n);
   if (m < 2) throw base::UsageError(fmt::format("a table needs at least 2 lengths, not {}", m));
   if (!(max_length > 0) || !std::isfinite(max_length)) {
@@ -61,9 +61,9 @@ Table3D full_table(const TransferFunction& tf, double low, double high, double m
   }
   std::vector<double> lengths(static_cast<std::size_t>(m));
   for (int l = 0; l < m; ++l) {
-    lengths[static_cast<std::size_t>(l)] = table_node(0, max_length, m, l);
+    lengths[static_cast<std::size_t>(l)] = length_at(axis, max_length, m, l);
   }
-  return {n, m, low, high, max_length, full_entries(tf, low, high, n, lengths, method)};
+  return {n, m, low, high, max_length, full_entries(tf, low, high, n, lengths, method), axis, {}};
 }
 
 }  // namespace tetraglass::preint

@@ -27,7 +27,7 @@ template <class Entry>
 Table2D table_2d(double low, double high, int n, const Entry& entry) {
   check_axis(low, high, n);
   const auto size = static_cast<std::size_t>(n);
-  Table2D table{n, low, high, std::vector<float>(4 * size * size)};
+  Table2D table{n, low, high, std::vector<float>(4 * size * size), {}};
   base::parallel_ranges(size, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const double back = table_node(low, high, n, static_cast<int>(b));
@@ -60,6 +60,25 @@ void check_length(double length) {
 double table_node(double low, double high, int n, int i) {
   const double t = static_cast<double>(i) / (n - 1);
   return low * (1 - t) + high * t;
+}
+
+namespace {
+
+/// Logarithmic: length = max_length expm1(kStretch t) / expm1(kStretch), t in [0, 1].
+const double kStretch = std::log(1024.0);
+
+}  // namespace
+
+double length_at(LengthAxis axis, double max_length, int m, double coordinate) {
+  const double t = coordinate / (m - 1);
+  if (axis == LengthAxis::linear || t == 1) return max_length * t;
+  return max_length * (std::expm1(kStretch * t) / std::expm1(kStretch));
+}
+
+double length_coordinate(LengthAxis axis, double max_length, int m, double length) {
+  const double x = length / max_length;
+  const double t = axis == LengthAxis::linear ? x : std::log1p(x * std::expm1(kStretch)) / kStretch;
+  return t * (m - 1);
 }
 
 Table2D emission_table(const TransferFunction& tf, double low, double high, int n) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "preint/isosurfaces.h"
@@ -15,10 +16,16 @@ struct Table2D {
   double low = 0;
   double high = 1;
   std::vector<float> rgba;
+  std::optional<double> max_error = {};  ///< of lookups, where it was measured (table_error.h)
 };
 
-/// RGBA entries over (front, back, length): n x n x m, lengths linear from 0 to `max_length`
-/// inclusive. Entry (f, b, l) is at rgba[4 * ((l * n + b) * n + f)].
+enum class LengthAxis {
+  linear,
+  logarithmic,  ///< fine near 0 (spacing max_length / 150 / m), coarse near max_length (7 / m)
+};
+
+/// RGBA entries over (front, back, length): n x n x m, lengths from 0 to `max_length` inclusive.
+/// Entry (f, b, l) is at rgba[4 * ((l * n + b) * n + f)].
 struct Table3D {
   int n = 0;
   int m = 0;
@@ -26,10 +33,18 @@ struct Table3D {
   double high = 1;
   double max_length = 1;
   std::vector<float> rgba;
+  LengthAxis axis = LengthAxis::linear;
+  std::optional<double> max_error = {};  ///< of lookups, where it was measured (table_error.h)
 };
 
 /// The value of sample i of n of an axis from `low` to `high`, both met exactly.
 [[nodiscard]] double table_node(double low, double high, int n, int i);
+
+/// The length at a coordinate in [0, m - 1]; whole coordinates are the m samples.
+[[nodiscard]] double length_at(LengthAxis axis, double max_length, int m, double coordinate);
+
+/// The inverse of `length_at`: 0 for no length, m - 1 for `max_length`, more beyond.
+[[nodiscard]] double length_coordinate(LengthAxis axis, double max_length, int m, double length);
 
 // Each of the following throws UsageError for n or m below 2, a range that is not low < high, or a
 // length that is not positive.
@@ -65,6 +80,7 @@ enum class TableMethod {
 /// parallel. Lengths beyond `max_length` are not covered: choose it as the longest cell edge.
 [[nodiscard]] Table3D full_table(const TransferFunction& tf, double low, double high,
                                  double max_length, int n, int m,
-                                 TableMethod method = TableMethod::incremental);
+                                 TableMethod method = TableMethod::incremental,
+                                 LengthAxis axis = LengthAxis::linear);
 
 }  // namespace tetraglass::preint
