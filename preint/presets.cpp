@@ -7,6 +7,8 @@
 
 #include "base/errors.h"
 #include "base/suggest.h"
+#include "preint/color_spaces.h"
+#include "preint/preset_scale.h"
 #include "preint/transfer_function.h"
 
 namespace tetraglass::preint {
@@ -46,21 +48,10 @@ constexpr std::array<ColorMap, 6> kColorMaps = {{
       0x8f8f8f, 0x9f9f9f, 0xafafaf, 0xbfbfbf, 0xcfcfcf, 0xdfdfdf, 0xefefef, 0xffffff}},
 }};
 
-/// Extinction at the top of the range, times the diagonal. A ray along the whole diagonal through
-/// the upper half of the range (three quarters of this on average) keeps exp(-6) = 0.25 % of the
-/// light; a plume a twentieth of the diagonal thick hides a third of what is behind it, the cold
-/// air around it (a twentieth of the range) a fifth.
-constexpr double kDepthAtTop = 8;
-
 /// x-ray: the same everywhere. A body half as thick as the diagonal takes half of the light.
 constexpr double kDepthOfXRay = 1.4;
 
 constexpr const char* kXRay = "x-ray";
-
-/// IEC 61966-2-1.
-double linear_from_srgb(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
 
 Color linear_color(std::uint32_t srgb) {
   const auto channel = [&](unsigned shift) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,31 @@ TransferFunction scale_extinction(const TransferFunction& tf, double factor) {
   }
   std::vector<ControlPoint> points = tf.points();
   for (ControlPoint& p : points) p.extinction *= factor;
+  return TransferFunction(std::move(points));
+}
+
+TransferFunction with_extinction_of(const TransferFunction& colors,
+                                    const TransferFunction& extinction) {
+  std::set<double> values;
+  std::set<double> jumps;
+  for (const TransferFunction* tf : {&colors, &extinction}) {
+    double previous = std::nan("");
+    for (const ControlPoint& p : tf->points()) {
+      values.insert(p.value);
+      if (p.value == previous) jumps.insert(p.value);
+      previous = p.value;
+    }
+  }
+  std::vector<ControlPoint> points;
+  for (const double v : values) {
+    if (jumps.count(v) > 0) {
+      const std::size_t i = colors.interval_below(v);
+      const bool has_point = i < colors.points().size() && colors.points()[i].value == v;
+      const Material lower = has_point ? colors.points()[i].material : colors.material_at(v);
+      points.push_back({v, colors.below(v).color, extinction.below(v).extinction, lower});
+    }
+    points.push_back({v, colors.at(v).color, extinction.at(v).extinction, colors.material_at(v)});
+  }
   return TransferFunction(std::move(points));
 }
 
@@ -126,17 +152,7 @@ TransferFunction automatic_extinction(const TransferFunction& tf, const Histogra
   const TransferFunction extinction =
       scale_extinction(TransferFunction(shape), mean_depth / (mean * diagonal));
 
-  // Both functions are linear between their own points, so the points of both carry the result.
-  std::vector<ControlPoint> points = tf.points();
-  for (const ControlPoint& p : extinction.points()) {
-    const bool known = std::any_of(tf.points().begin(), tf.points().end(),
-                                   [&](const ControlPoint& q) { return q.value == p.value; });
-    if (!known) points.push_back({p.value, tf.at(p.value).color, 0, tf.material_at(p.value)});
-  }
-  std::stable_sort(points.begin(), points.end(),
-                   [](const ControlPoint& a, const ControlPoint& b) { return a.value < b.value; });
-  for (ControlPoint& p : points) p.extinction = extinction.at(p.value).extinction;
-  return TransferFunction(std::move(points));
+  return with_extinction_of(tf, extinction);
 }
 
 }  // namespace tetraglass::preint

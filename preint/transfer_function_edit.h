@@ -14,6 +14,11 @@ namespace tetraglass::preint {
 /// All extinctions times `factor`. Throws UsageError unless it is finite and >= 0.
 [[nodiscard]] TransferFunction scale_extinction(const TransferFunction& tf, double factor);
 
+/// The colors and materials of one function with the extinction of another: control points where
+/// either has some, jumps where either jumps.
+[[nodiscard]] TransferFunction with_extinction_of(const TransferFunction& colors,
+                                                  const TransferFunction& extinction);
+
 /// The function with its first to last value spread over the same range logarithmically: for fields
 /// over many orders of magnitude. v takes what `tf` has at low + (high - low) log(v / low) /
 /// log(high / low). Control points are added so that color and extinction differ from that by at

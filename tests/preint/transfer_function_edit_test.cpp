@@ -22,6 +22,20 @@ TEST(TransferFunctionEdit, ScalesExtinctionOnly) {
   EXPECT_THROW(static_cast<void>(scale_extinction(tf, NAN)), base::UsageError);
 }
 
+TEST(TransferFunctionEdit, ExtinctionOfAnother) {
+  const TransferFunction colors(
+      {{0, kRed, 9, {1, 0, 0, 1}}, {1, kBlue, 9}, {1, kRed, 9, {0, 1, 0, 1}}, {3, kBlue, 9}});
+  const TransferFunction extinction({{-1, kRed, 1}, {0, kRed, 4}, {0, kRed, 2}, {2, kRed, 6}});
+  const TransferFunction both = with_extinction_of(colors, extinction);
+  for (double v = -2; v <= 4; v += 0.25) {
+    EXPECT_EQ(both.at(v).extinction, extinction.at(v).extinction) << v;
+    EXPECT_EQ(both.below(v).extinction, extinction.below(v).extinction) << v;
+    EXPECT_LE((both.at(v).color - colors.at(v).color).abs().maxCoeff(), 1e-15) << v;
+    EXPECT_LE((both.below(v).color - colors.below(v).color).abs().maxCoeff(), 1e-15) << v;
+    EXPECT_NEAR(both.material_at(v).diffuse, colors.material_at(v).diffuse, 1e-15) << v;
+  }
+}
+
 TEST(TransferFunctionEdit, LogarithmicValues) {
   const TransferFunction tf({{0.01, kRed, 0, {0, 0, 0, 1}},
                              {400, kBlue, 6},
