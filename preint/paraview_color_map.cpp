@@ -191,6 +191,7 @@ std::optional<ColorSpace> color_space(const std::string& file, const ParaviewMap
   const auto found = kSpaces.find(map.space);
   if (found != kSpaces.end()) return found->second;
   std::vector<std::string> names;
+  names.reserve(kSpaces.size());
   for (const auto& [name, space] : kSpaces) names.push_back(name);
   throw base::ReadError(file, fmt::format("'{}' has an unknown color space '{}'{}", map.name,
                                           map.space, base::suggestion(map.space, names)));

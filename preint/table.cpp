@@ -37,6 +37,36 @@ Table2D table_2d(double low, double high, int n, const Entry& entry) {
   return table;
 }
 
+/// A table that is the same in both directions: entries grow cell by cell, from `entry` of single
+/// cells.
+template <class Entry, class Join, class Finish>
+Table2D growing_ranges(double low, double high, int n, const Entry& entry, const Join& join,
+                       const Finish& finish) {
+  check_axis(low, high, n);
+  const auto size = static_cast<std::size_t>(n);
+  const auto node = [&](std::size_t i) { return table_node(low, high, n, static_cast<int>(i)); };
+  std::vector<Eigen::Array4d> cells(size - 1);
+  for (std::size_t i = 0; i + 1 < size; ++i) cells[i] = entry(node(i), node(i + 1));
+  Table2D table{n, low, high, std::vector<float>(4 * size * size), {}};
+  const auto set = [&](std::size_t front, std::size_t back, const Eigen::Array4d& value) {
+    Eigen::Map<Eigen::Array4f>(&table.rgba[4 * (back * size + front)]) = value.cast<float>();
+  };
+  base::parallel_ranges(size, 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t first = begin; first < end; ++first) {
+      set(first, first, entry(node(first), node(first)));
+      if (first + 1 == size) continue;
+      Eigen::Array4d sum = cells[first];
+      for (std::size_t last = first + 1; last < size; ++last) {
+        if (last > first + 1) sum = join(sum, cells[last - 1]);
+        const Eigen::Array4d value = finish(sum, static_cast<int>(last - first));
+        set(first, last, value);
+        set(last, first, value);
+      }
+    }
+  });
+  return table;
+}
+
 Eigen::Array4d rgba(const Color& color, double a) {
   return {color[0], color[1], color[2], a};
 }
@@ -81,16 +111,29 @@ double length_coordinate(LengthAxis axis, double max_length, int m, double lengt
   return t * (m - 1);
 }
 
-Table2D emission_table(const TransferFunction& tf, double low, double high, int n) {
-  return table_2d(low, high, n, [&](double front, double back) {
+Table2D emission_table(const TransferFunction& tf, double low, double high, int n,
+                       TableMethod method) {
+  const auto mean = [&](double front, double back) {
     const Segment segment{front, back, 1};
     return rgba(integrate_emission(tf, segment), optical_depth(tf, segment));
-  });
+  };
+  if (method == TableMethod::brute_force) return table_2d(low, high, n, mean);
+  // Sums, not differences of one running integral: all terms are positive, so nothing cancels.
+  const auto join = [](const Eigen::Array4d& a, const Eigen::Array4d& b) { return (a + b).eval(); };
+  const auto average = [](const Eigen::Array4d& sum, int cells) { return (sum / cells).eval(); };
+  return growing_ranges(low, high, n, mean, join, average);
 }
 
-Table2D mip_table(const TransferFunction& tf, double low, double high, int n) {
-  return table_2d(low, high, n,
-                  [&](double front, double back) { return rgba(max_color(tf, front, back), 1); });
+Table2D mip_table(const TransferFunction& tf, double low, double high, int n, TableMethod method) {
+  const auto largest = [&](double front, double back) {
+    return rgba(max_color(tf, front, back), 1);
+  };
+  if (method == TableMethod::brute_force) return table_2d(low, high, n, largest);
+  const auto join = [](const Eigen::Array4d& a, const Eigen::Array4d& b) {
+    return a.max(b).eval();
+  };
+  const auto itself = [](const Eigen::Array4d& largest_so_far, int) { return largest_so_far; };
+  return growing_ranges(low, high, n, largest, join, itself);
 }
 
 Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high, int n) {

@@ -49,27 +49,28 @@ struct Table3D {
 // Each of the following throws UsageError for n or m below 2, a range that is not low < high, or a
 // length that is not positive.
 
-/// Emission per unit length (RGB) and mean extinction (A). Brute force: every entry is integrated
-/// on its own.
-[[nodiscard]] Table2D emission_table(const TransferFunction& tf, double low, double high, int n);
+/// How a table is filled. Both ways integrate to 1e-9, below the rounding of a float entry. (The
+/// algorithms themselves hold 1e-12, plus the rounding of the axis' samples relative to their
+/// spacing.)
+enum class TableMethod {
+  incremental,  ///< from its neighbours: a constant number of operations per entry (full model:
+                ///< lum2004, incremental subrange integration)
+  brute_force,  ///< every entry integrated on its own: as many pieces as control points lie between
+                ///< its ends
+};
 
-/// Channel-wise largest color between the two values (RGB); A = 1. Brute force.
-[[nodiscard]] Table2D mip_table(const TransferFunction& tf, double low, double high, int n);
+/// Emission per unit length (RGB) and mean extinction (A).
+[[nodiscard]] Table2D emission_table(const TransferFunction& tf, double low, double high, int n,
+                                     TableMethod method = TableMethod::incremental);
+
+/// Channel-wise largest color between the two values (RGB); A = 1.
+[[nodiscard]] Table2D mip_table(const TransferFunction& tf, double low, double high, int n,
+                                TableMethod method = TableMethod::incremental);
 
 /// Color (RGB, associated) and opacity (A) of the isosurfaces crossed, composited nearest first; 0
 /// where there is none (weiler2002 Fig. 10). Brute force. Look it up without interpolation.
 [[nodiscard]] Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high,
                                 int n);
-
-/// How a table of the full model is filled. Both integrate to 1e-9, below the rounding of a float
-/// entry. (The algorithm itself holds 1e-12, plus the rounding of the axis' samples relative to
-/// their spacing.)
-enum class TableMethod {
-  incremental,  ///< lum2004, incremental subrange integration: a constant number of operations per
-                ///< entry
-  brute_force,  ///< every entry integrated on its own: as many pieces as control points lie between
-                ///< its ends
-};
 
 /// The full model of segments of one length (slabs between parallel slices, lum2004): associated
 /// color (RGB) and opacity (A). Where front = back, the constant medium. In parallel.
