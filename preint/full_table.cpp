@@ -13,10 +13,10 @@ namespace tetraglass::preint {
 namespace {
 
 /// Entries [length][back][front], RGBA, for all the lengths.
-std::vector<float> full_entries(const TransferFunction& tf, double low, double high, int n,
-                                const std::vector<double>& lengths, TableMethod method) {
+Entries full_entries(const TransferFunction& tf, double low, double high, int n,
+                     const std::vector<double>& lengths, TableMethod method) {
   const auto size = static_cast<std::size_t>(n);
-  std::vector<float> rgba(4 * size * size * lengths.size());
+  Entries rgba(4 * size * size * lengths.size());
   const auto write = [&](std::size_t l, int front, int back, const LightSpan& span, int /*cells*/) {
     float* entry = &rgba[4 * ((l * size + static_cast<std::size_t>(back)) * size +
                               static_cast<std::size_t>(front))];

@@ -50,7 +50,7 @@ void ramped_entries(const TransferFunction& tf, double low, double high, double 
 
 Table2D empty_table(double low, double high, int n) {
   const auto size = static_cast<std::size_t>(std::max(n, 0));
-  return {n, low, high, std::vector<float>(4 * size * size), {}};
+  return {n, low, high, Entries(4 * size * size), {}};
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ template <class Entry>
 Table2D table_2d(double low, double high, int n, const Entry& entry) {
   check_axis(low, high, n);
   const auto size = static_cast<std::size_t>(n);
-  Table2D table{n, low, high, std::vector<float>(4 * size * size), {}};
+  Table2D table{n, low, high, Entries(4 * size * size), {}};
   base::parallel_ranges(size, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const double back = table_node(low, high, n, static_cast<int>(b));
@@ -47,7 +47,7 @@ Table2D growing_ranges(double low, double high, int n, const Entry& entry, const
   const auto node = [&](std::size_t i) { return table_node(low, high, n, static_cast<int>(i)); };
   std::vector<Eigen::Array4d> cells(size - 1);
   for (std::size_t i = 0; i + 1 < size; ++i) cells[i] = entry(node(i), node(i + 1));
-  Table2D table{n, low, high, std::vector<float>(4 * size * size), {}};
+  Table2D table{n, low, high, Entries(4 * size * size), {}};
   const auto set = [&](std::size_t front, std::size_t back, const Eigen::Array4d& value) {
     Eigen::Map<Eigen::Array4f>(&table.rgba[4 * (back * size + front)]) = value.cast<float>();
   };

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "preint/isosurfaces.h"
@@ -9,13 +12,32 @@
 
 namespace tetraglass::preint {
 
+/// std::allocator that leaves numbers uninitialized: the threads that fill a large table are the
+/// first to touch its memory, and nobody writes it twice.
+template <class T>
+struct UninitializedAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UninitializedAllocator<U>;
+  };
+  template <class U>
+  void construct(U* place) noexcept {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Args>
+  void construct(U* place, Args&&... args) {
+    ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
+  }
+};
+using Entries = std::vector<float, UninitializedAllocator<float>>;
+
 /// RGBA entries over (front value, back value), both of n samples, linear from `low` to `high`
 /// inclusive. Entry (f, b) is at rgba[4 * (b * n + f)].
 struct Table2D {
   int n = 0;
   double low = 0;
   double high = 1;
-  std::vector<float> rgba;
+  Entries rgba;
   std::optional<double> max_error = {};  ///< of lookups, where it was measured (table_error.h)
 };
 
@@ -32,7 +54,7 @@ struct Table3D {
   double low = 0;
   double high = 1;
   double max_length = 1;
-  std::vector<float> rgba;
+  Entries rgba;
   LengthAxis axis = LengthAxis::linear;
   std::optional<double> max_error = {};  ///< of lookups, where it was measured (table_error.h)
 };

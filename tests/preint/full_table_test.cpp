@@ -84,7 +84,7 @@ TEST(FullTable, IncrementalIsBruteForceInDouble) {
 TEST(FullTable, MethodsAgreeInFloat) {
   for (const NamedMedium& medium : media()) {
     SCOPED_TRACE(medium.name);
-    const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+    const auto difference = [](const Entries& a, const Entries& b) {
       float worst = 0;
       for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
       return worst;
