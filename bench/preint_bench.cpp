@@ -2,9 +2,12 @@
 // integration (lum2004).
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "preint/piece_light.h"
 #include "preint/segment_integral.h"
 #include "preint/table.h"
 
@@ -47,11 +50,25 @@ void segment(benchmark::State& state, double front, double back, double length) 
   state.SetItemsProcessed(state.iterations());
 }
 
+/// Linear pieces in float vectors; the argument is the bound on the optical depth, in hundredths.
+void lights_of_pieces(benchmark::State& state) {
+  constexpr std::size_t kPieces = 4096;
+  const float deepest = static_cast<float>(state.range(0)) / 100;
+  const std::vector<float> k(kPieces, deepest);
+  std::vector<float> front(kPieces), back(kPieces), transmittance(kPieces);
+  for (auto _ : state) {
+    piece_lights({k, k, front, back, transmittance}, deepest);
+    benchmark::DoNotOptimize(front.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kPieces));
+}
+
 const auto kMilliseconds = benchmark::kMillisecond;
 
 BENCHMARK_CAPTURE(segment, thin_in_one_piece, 0.51, 0.53, 0.01);
 BENCHMARK_CAPTURE(segment, whole_range_16_pieces, 0.0, 1.0, 1.0);
 BENCHMARK_CAPTURE(segment, opaque, 0.2, 0.9, 1000.0);
+BENCHMARK(lights_of_pieces)->Arg(10)->Arg(100)->Arg(1000);
 
 BENCHMARK_CAPTURE(table_2d, incremental, TableMethod::incremental)
     ->RangeMultiplier(2)
