@@ -6,9 +6,9 @@ namespace tetraglass::preint {
 
 /// A piece of a ray on which the field is linear.
 struct Segment {
-  double front = 0;   ///< the field's value where the ray enters
-  double back = 0;    ///< ... and where it leaves
-  double length = 0;  ///< >= 0, in the mesh's units
+  double front = 0;   ///< the field's value where the ray enters; finite
+  double back = 0;    ///< ... and where it leaves; finite
+  double length = 0;  ///< >= 0 and finite, in the mesh's units
 };
 
 /// Light that a segment sends towards the eye, and what it lets through.

@@ -17,7 +17,7 @@ namespace tetraglass::preint {
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
   template <class U>
-  struct rebind {
+  struct rebind {  // NOLINT(readability-identifier-naming): the standard names it
     using other = UninitializedAllocator<U>;
   };
   template <class U>
