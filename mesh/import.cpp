@@ -16,7 +16,7 @@
 #include "mesh/distance.h"
 #include "mesh/file_name.h"
 #include "mesh/read_exodus.h"
-#include "mesh/read_gmsh.h"
+#include "mesh/read_msh.h"
 #include "mesh/read_plot3d.h"
 #include "mesh/read_surface.h"
 #include "mesh/read_tetgen.h"
@@ -53,7 +53,7 @@ const std::vector<Format>& formats() {
       {{".node", ".ele"}, timeless(read_tetgen), true},
       {{".msh"},
        [](const std::string& file, const ImportOptions& options) {
-         return read_gmsh(file, options.time);
+         return read_msh(file, options.time);
        }},
   };
   return kFormats;

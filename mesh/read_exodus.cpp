@@ -13,10 +13,12 @@
 
 #include <fmt/format.h>
 #include <vtk_exodusII.h>
+#include <vtk_netcdf.h>
 
 #include "base/errors.h"
 #include "mesh/cell_shapes.h"
 #include "mesh/memory.h"
+#include "mesh/netcdf_size.h"
 #include "mesh/time_step.h"
 
 namespace tetraglass::mesh {
@@ -81,7 +83,18 @@ const std::vector<ElementShape>& corner_shapes() {
 class ExodusFile {
  public:
   explicit ExodusFile(const std::string& file) : file_(file) {
-    ex_opts(EX_DEFAULT);  // nothing is printed
+    if (const auto size = netcdf_size(file); size && *size > std::filesystem::file_size(file)) {
+      throw base::ReadError(file, fmt::format("is cut off: its head tells of {} bytes, it has {}",
+                                              *size, std::filesystem::file_size(file)));
+    }
+    // The Exodus library prints what it finds wrong while opening a file; netCDF's does not.
+    int trial = 0;
+    if (const int status = nc_open(file.c_str(), NC_NOWRITE, &trial); status != NC_NOERR) {
+      throw base::ReadError(file,
+                            fmt::format("is not a complete Exodus file: {}", nc_strerror(status)));
+    }
+    nc_close(trial);
+    ex_opts(EX_DEFAULT);  // after that, nothing is printed
     int computing_size = sizeof(double);
     int stored_size = 0;
     float version = 0;

@@ -6,7 +6,7 @@
 
 namespace tetraglass::mesh {
 
-/// Reads Gmsh's mesh format (.msh, versions 2 and 4, text and binary) with Gmsh's library: all
+/// Reads any mesh that Gmsh's library reads: all
 /// elements, and the node and element data of its views at one time step (`time` as in
 /// `find_time_step`) as fields; the cell field `physical` has the number of the physical volume,
 /// where there are any. Elements of high order without a VTK counterpart are reduced to their

@@ -99,13 +99,32 @@ struct Detected {
   std::vector<Dimensions> dimensions;
 };
 
-/// The layout in which the dimensions at the head of the file agree with its size. A solution may
-/// have bytes to spare (writers pad), for its dimensions must be those of the grid;
-/// the layout that spares fewest is taken.
+/// Whether every record stands between two lengths that are its own.
+bool marks_agree(const std::string& bytes, const Detected& format, Content content) {
+  const Layout& layout = format.layout;
+  std::size_t at = 0;
+  const auto record = [&](std::uint64_t size) {
+    const std::size_t end = at + kMark + size;
+    if (end + kMark > bytes.size()) return false;
+    const bool agrees =
+        word_at(bytes, at, layout.swapped) == size && word_at(bytes, end, layout.swapped) == size;
+    at = end + kMark;
+    return agrees;
+  };
+  if (layout.many && !record(4)) return false;
+  if (!record(12 * format.dimensions.size())) return false;
+  return std::ranges::all_of(format.dimensions, [&](const Dimensions& d) {
+    if (content == Content::grid) {
+      return record(d.points() * (3 * layout.real + (layout.blanks ? 4 : 0)));
+    }
+    return record(4 * layout.real) && record(5 * d.points() * layout.real);
+  });
+}
+
+/// The layout in which the dimensions at the head of the file agree with its size. A solution, the
+/// dimensions of which must be those of the grid, may have zeros after its values.
 std::optional<Detected> detect(const std::string& bytes, Content content,
                                const std::vector<Dimensions>* wanted = nullptr) {
-  std::optional<Detected> best;
-  std::uint64_t best_size = 0;
   for (unsigned choice = 0; choice < 32; ++choice) {
     Layout layout;
     layout.swapped = ((choice & 1U) != 0) != (std::endian::native == std::endian::big);
@@ -117,13 +136,14 @@ std::optional<Detected> detect(const std::string& bytes, Content content,
     const auto dimensions = read_dimensions(bytes, layout);
     if (!dimensions) continue;
     const std::uint64_t size = expected_size(layout, *dimensions, content);
+    if (wanted != nullptr && *dimensions != *wanted) continue;
     const bool fits =
-        wanted != nullptr ? *dimensions == *wanted && size <= bytes.size() : size == bytes.size();
-    if (!fits || size <= best_size) continue;
-    best = Detected{layout, *dimensions};
-    best_size = size;
+        size == bytes.size() || (wanted != nullptr && size < bytes.size() &&
+                                 bytes.find_first_not_of('\0', size) == std::string::npos);
+    const Detected format{layout, *dimensions};
+    if (fits && (!layout.records || marks_agree(bytes, format, content))) return format;
   }
-  return best;
+  return std::nullopt;
 }
 
 /// Takes the blocks of a binary file one after the other.

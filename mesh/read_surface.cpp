@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "mesh/file_name.h"
+#include "mesh/number_text.h"
 #include "mesh/text_lines.h"
 
 namespace tetraglass::mesh {
@@ -169,12 +170,11 @@ MeshData read_text_stl(const std::string& file) {
 
 MeshData read_stl(const std::string& file) {
   const std::string bytes = content_of(file);
-  // Binary files may begin with "solid" as well; their size tells, and the word that text has next.
+  // Binary files may begin with "solid" as well.
   const bool exact = bytes.size() >= kStlHead &&
                      bytes.size() == kStlHead + kStlTriangle * std::uint64_t{stl_count(bytes)};
-  const bool text =
-      !exact && bytes.starts_with("solid") &&
-      (bytes.find("facet") != std::string::npos || bytes.find("endsolid") != std::string::npos);
+  const bool text = !exact && bytes.starts_with("solid") && is_text(bytes);
+
   return text ? read_text_stl(file) : read_binary_stl(file, bytes);
 }
 

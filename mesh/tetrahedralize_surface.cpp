@@ -25,12 +25,17 @@ namespace {
 /// About how many tetrahedra a filled surface gets: enough to see the inside of its field, few
 /// enough to be drawn at once.
 constexpr double kWantedCells = 1e5;
-/// How much smaller than the largest allowed tetrahedron TetGen's are on average; measured over
-/// closed surfaces of the CGAL and OpenMesh demos (0.39 to 0.47).
+/// The mean volume of TetGen's tetrahedra over the largest allowed one, measured on coarse surfaces
+/// (0.44 to 0.48).
 constexpr double kMeanOfLargest = 0.45;
-/// The largest ratio of circumradius to shortest edge, at which TetGen's refinement is proven to
-/// end for surfaces without sharp angles (2), lowered to its practical default.
-constexpr double kRadiusEdgeRatio = 1.414;
+/// The largest ratio of circumradius to shortest edge. TetGen's refinement ends for 2 (Si 2015,
+/// Theorem 6.1).
+constexpr double kRadiusEdgeRatio = 2;
+/// A surface is kept as it is where its edges are at most so many times as long as the wanted
+/// tetrahedra's: then points inside fit to it.
+constexpr double kFineEdges = 2;
+/// The least points inside, of those on the surface, for a field inside to be seen.
+constexpr double kLeastInside = 0.05;
 
 /// How often the shell goes round the point (negatively if its faces turn inwards), from the solid
 /// angles of its triangles. Source: van Oosterom and Strackee 1983, Eq. 8.
@@ -186,6 +191,32 @@ TetMesh take(const TriangleSurface& surface, const tetgenio& out) {
   return mesh;
 }
 
+TetMesh run_tetgen(const TriangleSurface& surface, std::string switches) {
+  tetgenio in;
+  tetgenio out;
+  give(surface, in);
+  try {
+    tetrahedralize(switches.data(), &in, &out);
+  } catch (int code) {
+    fail(code);
+  }
+  return take(surface, out);
+}
+
+/// Whether the triangles are about as small as the tetrahedra that are wanted inside, or smaller.
+bool is_fine(const TriangleSurface& surface, double volume_of_cell) {
+  double area = 0;
+  for (const auto& t : surface.triangles) {
+    const Eigen::Vector3d& a = surface.points[t[0]];
+    area += (surface.points[t[1]] - a).cross(surface.points[t[2]] - a).norm() / 2;
+  }
+  // Edges of an equilateral triangle and of a regular tetrahedron.
+  const double surface_edge =
+      std::sqrt(area / static_cast<double>(surface.triangles.size()) * 4 / std::numbers::sqrt3);
+  const double cell_edge = std::cbrt(volume_of_cell * 6 * std::numbers::sqrt2);
+  return surface_edge <= kFineEdges * cell_edge;
+}
+
 }  // namespace
 
 TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes) {
@@ -193,22 +224,23 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes) {
   check_embedded(surface);
   const double volume = std::abs(enclosed_volume(surface));
   if (!(volume > 0)) throw base::InputError("the surface encloses no volume");
-  tetgenio in;
-  tetgenio out;
-  give(surface, in);
   const double largest = volume / (kWantedCells * kMeanOfLargest);
-  std::string switches = fmt::format("pq{}a{:e}AQ", kRadiusEdgeRatio, largest);
-  try {
-    tetrahedralize(switches.data(), &in, &out);
-  } catch (int code) {
-    fail(code);
+  const std::string quality = fmt::format("q{}a{:e}AQ", kRadiusEdgeRatio, largest);
+  const auto points = static_cast<double>(surface.points.size());
+  TetMesh mesh;
+  bool kept = is_fine(surface, volume / kWantedCells);
+  if (kept) {
+    mesh = run_tetgen(surface, "pY" + quality);
+    // Between walls as thin as their triangles TetGen places no points while it keeps them.
+    kept = static_cast<double>(mesh.points.size()) >= (1 + kLeastInside) * points;
   }
-  TetMesh mesh = take(surface, out);
+  if (!kept) mesh = run_tetgen(surface, "p" + quality);
   if (mesh.cells.empty()) throw base::InputError("the surface encloses no volume");
   notes.push_back(
-      fmt::format("{} triangles in {} shells, filled by TetGen with {} points added",
-                  surface.triangles.size(), surface.shells.size(),
-                  mesh.points.size() - std::min(mesh.points.size(), surface.points.size())));
+      fmt::format("{} triangles in {} shells{}, filled by TetGen with {} points added{}",
+                  surface.triangles.size(), surface.shells.size(), kept ? ", kept as they are" : "",
+                  mesh.points.size() - std::min(mesh.points.size(), surface.points.size()),
+                  kept ? " inside" : " inside and on the surface"));
   return mesh;
 }
 

@@ -18,9 +18,10 @@ std::string essence(const char* text) {
     const std::size_t end = line.find('\n');
     line.erase(0, end == std::string::npos ? line.size() : end + 1);
   }
-  if (line.rfind("vtk", 0) == 0) {
-    const std::size_t end = line.find("): ");
-    if (end != std::string::npos) line.erase(0, end + 3);
+  const std::size_t address = line.find(" (0x");
+  const std::size_t end = line.find("): ");
+  if (address != std::string::npos && end != std::string::npos && address < end) {
+    line.erase(0, end + 3);
   }
   // Damaged files are quoted: what cannot be printed becomes a dot, and a line is enough.
   for (char& c : line) {
