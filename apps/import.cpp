@@ -1,12 +1,15 @@
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "apps/mesh_input.h"
 #include "apps/subcommands.h"
+#include "base/errors.h"
 #include "base/output_file.h"
+#include "mesh/expression.h"
 #include "mesh/write.h"
 
 namespace tetraglass::apps {
@@ -15,12 +18,26 @@ namespace {
 struct ImportArguments {
   std::string input;
   std::string output;
+  std::vector<std::string> new_fields;
   mesh::ImportOptions options;
 };
 
+/// Adds the fields that are asked for as NAME=EXPRESSION.
+void add_fields(mesh::TetMesh& mesh, const std::vector<std::string>& definitions) {
+  for (const std::string& definition : definitions) {
+    const std::size_t equals = definition.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw base::UsageError("--add-field needs NAME=EXPRESSION, not '" + definition + "'");
+    }
+    mesh.fields.push_back(mesh::evaluate_expression(mesh, definition.substr(0, equals),
+                                                    definition.substr(equals + 1)));
+  }
+}
+
 void import(const ImportArguments& arguments) {
   { const base::OutputFile probe(arguments.output); }  // tell before the work, not after it
-  const mesh::Import imported = import_and_tell(arguments.input, arguments.options);
+  mesh::Import imported = import_and_tell(arguments.input, arguments.options);
+  add_fields(imported.mesh, arguments.new_fields);
   mesh::write_vtu(imported.mesh, arguments.output);
   fmt::print(stderr, "{}: {} tetrahedra, {} points, {} fields\n", arguments.output,
              imported.mesh.cells.size(), imported.mesh.points.size(), imported.mesh.fields.size());
@@ -38,6 +55,11 @@ void add_import(CLI::App& program) {
   app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
   app->add_option("--time", arguments->options.time,
                   "Time step: a time, 'last' (default) or 'index:N'");
+  app->add_option("--add-field", arguments->new_fields,
+                  "NAME=EXPRESSION in x, y, z, radius and point fields, e.g. 'hot=max(0, T - "
+                  "400)'; repeatable")
+      ->take_all()
+      ->expected(1);
   app->callback([arguments] { import(*arguments); });
 }
 

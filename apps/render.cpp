@@ -15,15 +15,21 @@
 #include "apps/options.h"
 #include "apps/render_report.h"
 #include "apps/subcommands.h"
+#include "apps/transfer_function_input.h"
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "preint/transfer_function.h"
+#include "preint/transfer_function_edit.h"
 #include "project/image_file.h"
 
 namespace tetraglass::apps {
 namespace {
 
 using project::Mode;
+
+// A ray along the diagonal that meets the field's values as often as the mesh has them keeps
+// exp(-3) = 5 % of the light.
+constexpr double kAutomaticDepth = 3;
 
 constexpr double kDefaultFov =
     30;  // degrees: little perspective distortion, as figures usually have
@@ -41,6 +47,9 @@ struct RenderArguments {
   std::string iso_opacity;
   std::string transfer_function = "viridis";
   std::string range;
+  std::string opacity;
+  std::string opacity_scale;
+  bool logarithmic = false;
   std::string eye;
   std::string target;
   std::string up;
@@ -102,22 +111,34 @@ project::Camera make_camera(const RenderArguments& arguments, const mesh::TetMes
   return camera;
 }
 
-bool is_file_name(const std::string& transfer_function) {
-  return transfer_function.find('.') != std::string::npos ||
-         transfer_function.find('/') != std::string::npos;
+/// Color maps say nothing of opacity, so it comes from the data; x-ray, and files, mean the opacity
+/// that they have.
+bool wants_automatic_opacity(const RenderArguments& arguments) {
+  const std::string& name = arguments.transfer_function;
+  if (arguments.opacity.empty()) return is_preset_name(name) && name != "x-ray";
+  return parse_choice<bool>(arguments.opacity, "--opacity", {{"given", false}, {"auto", true}});
 }
 
 preint::TransferFunction make_transfer_function(const RenderArguments& arguments,
                                                 const mesh::ScalarField& field, double diagonal) {
+  const std::string& name = arguments.transfer_function;
   double low = field.min;
   double high = field.max;
   if (!arguments.range.empty()) std::tie(low, high) = parse_range(arguments.range, "--range");
-  if (!is_file_name(arguments.transfer_function)) {
-    return preint::preset(arguments.transfer_function, low, high, diagonal);
+  preint::TransferFunction tf = read_named_transfer_function(name, low, high, diagonal);
+  if (!arguments.range.empty() && has_own_values(name)) {
+    warn(
+        "--range scales presets and color maps only; the values in the transfer function's file "
+        "are kept");
   }
-  if (!arguments.range.empty())
-    warn("--range scales presets only; the values in the transfer function's file are kept");
-  return preint::read_transfer_function(arguments.transfer_function);
+  if (arguments.logarithmic) tf = preint::with_logarithmic_values(tf);
+  if (wants_automatic_opacity(arguments) && low < high) {
+    constexpr std::size_t kBins = 64;
+    const preint::Histogram histogram = preint::histogram(field.values, low, high, kBins);
+    tf = preint::automatic_extinction(tf, histogram, kAutomaticDepth, diagonal);
+  }
+  if (arguments.opacity_scale.empty()) return tf;
+  return preint::scale_extinction(tf, parse_number(arguments.opacity_scale, "--opacity-scale"));
 }
 
 std::vector<preint::Isosurface> make_isosurfaces(
@@ -373,10 +394,12 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--iso-opacity", a.iso_opacity, "0 to 1, of all isosurfaces. Default: 1");
   app->add_option("--shading", a.shading,
                   "none | flat | smooth, for mode iso, by a headlight. Default there: smooth");
-  app->add_option("--tf", a.transfer_function,
-                  fmt::format("Transfer function: FILE.json or one of {}",
-                              fmt::join(preint::preset_names(), ", ")))
-      ->capture_default_str();
+  app->add_option("--tf", a.transfer_function, transfer_function_help())->capture_default_str();
+  app->add_option(
+      "--opacity", a.opacity,
+      "auto: show rare values, hide common ones (default for presets) | given: as --tf has it");
+  app->add_option("--opacity-scale", a.opacity_scale, "All extinctions times this");
+  app->add_flag("--log", a.logarithmic, "Spread --tf over the values logarithmically");
   app->add_option("--range", a.range,
                   "LO:HI, the values at the ends of a preset. Default: the field's range");
   app->add_option("--background", a.background,

@@ -13,6 +13,7 @@
 
 #include "base/errors.h"
 #include "base/suggest.h"
+#include "mesh/heat_sink.h"
 #include "mesh/voxel_grid.h"
 
 namespace tetraglass::mesh {
@@ -185,14 +186,14 @@ TetMesh make_cycle(std::size_t cells) {
 struct Sample {
   const char* name;
   TetMesh (*make)(std::size_t cells);
-  double (*field)(const Vector3d&);
+  double (*field)(const Vector3d&);  ///< null: `make` has added the field
 };
 
 constexpr std::array kSamples = {
     Sample{"orbital", make_grid, orbital}, Sample{"sphere", make_grid, distance_from_origin},
     Sample{"linear", make_grid, linear},   Sample{"needles", make_needles, linear},
     Sample{"shells", make_shells, linear}, Sample{"cavity", make_cavity, linear},
-    Sample{"cycle", make_cycle, linear},
+    Sample{"cycle", make_cycle, linear},   Sample{"heat-sink", make_heat_sink, nullptr},
 };
 
 }  // namespace
@@ -212,6 +213,7 @@ TetMesh make_sample(const std::string& name, std::size_t cells) {
         fmt::format("no sample '{}'{}", name, base::suggestion(name, sample_names())));
   }
   TetMesh mesh = sample->make(cells);
+  if (sample->field == nullptr) return mesh;
   Field& field = mesh.fields.emplace_back(Field{name, Location::point, 1, {}});
   field.values.resize(mesh.points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.points.size(), 4096),

@@ -8,8 +8,12 @@
 
 namespace tetraglass::mesh {
 
-/// Fills the closed surface that the cells of dimension 2 of `data` make with about a hundred
-/// thousand well-shaped tetrahedra (more where the surface is finer), by TetGen. Equal points are
+/// How many tetrahedra a filled surface gets unless asked for: enough to see the inside of its
+/// field, few enough to be drawn at once.
+inline constexpr double kUsualCells = 1e5;
+
+/// Fills the closed surface that the cells of dimension 2 of `data` make with about `cells`
+/// well-shaped tetrahedra (more where the surface is finer), by TetGen. Equal points are
 /// one; polygons are cut by the diagonals from their smallest point index. A shell within another
 /// one is a cavity if its faces turn towards its inside, and part of the solid if they turn away
 /// from it; where the faces of a surface do not agree on a direction, shells that lie in an odd
@@ -18,7 +22,8 @@ namespace tetraglass::mesh {
 /// (with the number of its open edges), has no volume, or intersects itself; UnavailableError in a
 /// build without TetGen. Source: Si 2015, "TetGen, a Delaunay-Based Quality Tetrahedral Mesh
 /// Generator".
-[[nodiscard]] TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes);
+[[nodiscard]] TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
+                                   double cells = kUsualCells);
 
 /// The Delaunay tetrahedra of all points, which fill their convex hull, with the point fields. Of
 /// equal points the first one counts. What was done is added to `notes`. Throws InputError for

@@ -22,9 +22,6 @@
 namespace tetraglass::mesh {
 namespace {
 
-/// About how many tetrahedra a filled surface gets: enough to see the inside of its field, few
-/// enough to be drawn at once.
-constexpr double kWantedCells = 1e5;
 /// The mean volume of TetGen's tetrahedra over the largest allowed one, measured on coarse surfaces
 /// (0.44 to 0.48).
 constexpr double kMeanOfLargest = 0.45;
@@ -219,16 +216,16 @@ bool is_fine(const TriangleSurface& surface, double volume_of_cell) {
 
 }  // namespace
 
-TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes) {
+TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes, double cells) {
   const TriangleSurface surface = triangle_surface(data, notes);
   check_embedded(surface);
   const double volume = std::abs(enclosed_volume(surface));
   if (!(volume > 0)) throw base::InputError("the surface encloses no volume");
-  const double largest = volume / (kWantedCells * kMeanOfLargest);
+  const double largest = volume / (cells * kMeanOfLargest);
   const std::string quality = fmt::format("q{}a{:e}AQ", kRadiusEdgeRatio, largest);
   const auto points = static_cast<double>(surface.points.size());
   TetMesh mesh;
-  bool kept = is_fine(surface, volume / kWantedCells);
+  bool kept = is_fine(surface, volume / cells);
   if (kept) {
     mesh = run_tetgen(surface, "pY" + quality);
     // Between walls as thin as their triangles TetGen places no points while it keeps them.
@@ -250,7 +247,8 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes) {
 
 namespace tetraglass::mesh {
 
-TetMesh fill_surface(const MeshData& /*data*/, std::vector<std::string>& /*notes*/) {
+TetMesh fill_surface(const MeshData& /*data*/, std::vector<std::string>& /*notes*/,
+                     double /*cells*/) {
   throw base::UnavailableError(
       "filling a surface needs TetGen, which this build lacks (TETRAGLASS_WITH_TETGEN)");
 }

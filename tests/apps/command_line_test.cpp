@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "project/image_file.h"
+#include "project/npy.h"
 #include "tests/support/data.h"
 #include "tests/support/program.h"
 
@@ -135,6 +136,56 @@ TEST_F(CommandLine, ImportAndInfoAgree) {
   EXPECT_EQ(a["fields"][0]["location"], "point");
   EXPECT_GT(a["quality"]["min_dihedral_deg"].get<double>(), 0);
   EXPECT_NE(run_program("info " + sphere()).out.find("tetrahedra"), std::string::npos);
+}
+
+TEST_F(CommandLine, ImportAddsFieldsFromExpressions) {
+  const std::string copy = output_.file("copy.vtu");
+  const ProgramRun run = run_program("import " + sphere() + " -o " + copy +
+                                     " --add-field 'half = sphere / 2' --add-field 'n=2*iHat'");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json info = Json::parse(run_program("info --json " + copy).out);
+  ASSERT_EQ(info["fields"].size(), 3U);
+  EXPECT_NEAR(info["fields"][1]["max"].get<double>(), info["fields"][0]["max"].get<double>() / 2,
+              1e-12);
+  EXPECT_EQ(info["fields"][1]["name"], "half");
+  EXPECT_EQ(info["fields"][2]["components"], 3);
+  expect_error("import " + sphere() + " -o " + copy + " --add-field half", 2, "NAME=EXPRESSION");
+  expect_error("import " + sphere() + " -o " + copy + " --add-field 'a=unknown+1'", 2, "unknown");
+}
+
+// Every kind and method of the contract, with entries that agree with the exact integral to the
+// rounding of floats.
+TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
+  const std::string out = output_.file("t.npy");
+  for (const std::string kind :
+       {"emission", "mip", "full2d", "full3d", "weighted", "material", "iso", "psi"}) {
+    const std::string size = kind == "full3d" ? "17x9" : "33";
+    const bool single = kind == "iso" || kind == "psi";
+    for (const std::string method : {"incremental", "brute-force", "exact"}) {
+      const bool usual =
+          (kind == "iso" && method == "brute-force") || (kind == "psi" && method == "exact");
+      const std::string arguments = "table --kind " + kind + " --size " + size + " --method " +
+                                    method + " -o " + out + " --json";
+      if ((single && !usual) || (kind == "material" && method == "exact")) {
+        expect_error(arguments, 2, kind);
+        continue;
+      }
+      const ProgramRun run = run_program(arguments);
+      ASSERT_EQ(run.status, 0) << run.err;
+      const Json json = Json::parse(run.out);
+      EXPECT_EQ(json["kind"], kind);
+      EXPECT_EQ(json["method"], method);
+      EXPECT_GT(json["entries_per_s"].get<double>(), 0);
+      EXPECT_LT(json["max_error"].get<double>(), 2e-6) << kind << ' ' << method;
+      const project::NpyArray table = project::parse_npy(read_text(out), out);
+      EXPECT_EQ(table.shape.size(), kind == "psi"                            ? 2U
+                                    : kind == "full3d" || kind == "weighted" ? 4U
+                                                                             : 3U)
+          << kind;
+    }
+  }
+  expect_error("table --kind full3d --size 32", 2, "NxM");
+  expect_error("table --kind fulll2d --size 32", 2, "'full2d'");
 }
 
 TEST_F(CommandLine, ErrorsSayWhichFileAndLeaveNothing) {
