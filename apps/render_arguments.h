@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/import.h"
+#include "project/image_file.h"
+#include "project/plan.h"
+#include "project/scene.h"
+
+namespace tetraglass::apps {
+
+/// The options as typed; empty where not given.
+struct RenderArguments {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string size = "800x600";
+  std::string field;
+  std::string mode = "full";
+  std::string mip_of = "field";
+  std::vector<std::string> isovalues;
+  std::vector<std::string> iso_colors;
+  std::string iso_opacity;
+  std::string transfer_function = "viridis";
+  std::string range;
+  std::string opacity;
+  std::string opacity_scale;
+  bool logarithmic = false;
+  std::string eye;
+  std::string target;
+  std::string up;
+  std::string fov;
+  std::string ortho;
+  std::string view;
+  std::string projector = "auto";
+  std::string context = "auto";
+  std::string sort = "auto";
+  std::string integrator = "auto";
+  std::string table;
+  std::string shading;
+  std::string background;
+  std::string stats;
+  std::string verify;
+  std::string threads;
+  bool explain = false;
+  mesh::ImportOptions import;
+};
+
+/// The scene that the arguments ask for, of a mesh that outlives it. Throws UsageError for values
+/// that cannot be, InputError and ReadError where the mesh or the transfer function's file lack
+/// what is needed; warns on stderr of what will not be seen.
+[[nodiscard]] project::Scene make_scene(const RenderArguments& arguments,
+                                        const mesh::TetMesh& mesh);
+
+/// The way of drawing that the arguments force. Throws UsageError.
+[[nodiscard]] project::Request make_request(const RenderArguments& arguments);
+
+/// What stands behind a .png. Throws UsageError.
+[[nodiscard]] project::Background make_background(const RenderArguments& arguments,
+                                                  project::Mode mode);
+
+}  // namespace tetraglass::apps

@@ -1,0 +1,231 @@
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/mesh_input.h"
+#include "apps/options.h"
+#include "apps/render_arguments.h"
+#include "apps/transfer_function_input.h"
+#include "preint/transfer_function.h"
+#include "preint/transfer_function_edit.h"
+
+namespace tetraglass::apps {
+namespace {
+
+using project::Mode;
+
+// A ray along the diagonal that meets the field's values as often as the mesh has them keeps
+// exp(-3) = 5 % of the light.
+constexpr double kAutomaticDepth = 3;
+
+constexpr double kDefaultFov =
+    30;  // degrees: little perspective distortion, as figures usually have
+
+/// Whether z is no good as the up direction: less than a thousandth of the gaze goes across it.
+bool is_along_z(const Eigen::Vector3d& gaze) {
+  return gaze.head<2>().stableNorm() <= 1e-3 * std::abs(gaze.z());
+}
+
+project::Camera make_camera(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                            double aspect) {
+  if (!arguments.fov.empty() && !arguments.ortho.empty()) {
+    throw base::UsageError(
+        "--fov is for perspective, --ortho for parallel views: give one of them");
+  }
+  if (!arguments.eye.empty() && !arguments.view.empty()) {
+    throw base::UsageError("--view frames the mesh by itself: give --eye or --view, not both");
+  }
+  if (arguments.eye.empty() && !arguments.target.empty()) {
+    throw base::UsageError("--target needs --eye; to look from a direction use --view");
+  }
+  const double fov = arguments.fov.empty() ? kDefaultFov : parse_number(arguments.fov, "--fov");
+  if (!(fov > 0 && fov < 180))
+    throw base::UsageError("--fov must lie between 0 and 180 degrees (exclusive)");
+  const Eigen::Vector3d direction =
+      parse_direction(arguments.view.empty() ? "1,0.8,0.6" : arguments.view, "--view");
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if (!arguments.up.empty()) {
+    up = parse_vector(arguments.up, "--up");
+  } else if (arguments.eye.empty() && is_along_z(direction)) {
+    up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
+  }
+  project::Camera camera = project::frame_camera(mesh.points, direction, up, fov, aspect);
+  if (!arguments.eye.empty()) {
+    camera.eye = parse_vector(arguments.eye, "--eye");
+    camera.target = arguments.target.empty() ? mesh::bounds(mesh).center()
+                                             : parse_vector(arguments.target, "--target");
+    if (arguments.up.empty() && is_along_z(camera.target - camera.eye))
+      camera.up = Eigen::Vector3d::UnitY();
+  }
+  camera.parallel = !arguments.ortho.empty();
+  if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
+  return camera;
+}
+
+/// Color maps say nothing of opacity, so it comes from the data; x-ray, and files, mean the opacity
+/// that they have.
+bool wants_automatic_opacity(const RenderArguments& arguments) {
+  const std::string& name = arguments.transfer_function;
+  if (arguments.opacity.empty()) return is_preset_name(name) && name != "x-ray";
+  return parse_choice<bool>(arguments.opacity, "--opacity", {{"given", false}, {"auto", true}});
+}
+
+preint::TransferFunction make_transfer_function(const RenderArguments& arguments,
+                                                const mesh::ScalarField& field, double diagonal) {
+  const std::string& name = arguments.transfer_function;
+  double low = field.min;
+  double high = field.max;
+  if (!arguments.range.empty()) std::tie(low, high) = parse_range(arguments.range, "--range");
+  preint::TransferFunction tf = read_named_transfer_function(name, low, high, diagonal);
+  if (!arguments.range.empty() && has_own_values(name)) {
+    warn(
+        "--range scales presets and color maps only; the values in the transfer function's file "
+        "are kept");
+  }
+  if (arguments.logarithmic) tf = preint::with_logarithmic_values(tf);
+  if (wants_automatic_opacity(arguments) && low < high) {
+    constexpr std::size_t kBins = 64;
+    const preint::Histogram histogram = preint::histogram(field.values, low, high, kBins);
+    tf = preint::automatic_extinction(tf, histogram, kAutomaticDepth, diagonal);
+  }
+  if (arguments.opacity_scale.empty()) return tf;
+  return preint::scale_extinction(tf, parse_number(arguments.opacity_scale, "--opacity-scale"));
+}
+
+std::vector<preint::Isosurface> make_isosurfaces(
+    const RenderArguments& arguments, const mesh::ScalarField& field,
+    const preint::TransferFunction& transfer_function) {
+  std::vector<preint::Isosurface> surfaces;
+  for (const std::string& text : arguments.isovalues) {
+    surfaces.push_back({parse_number(text, "--isovalue")});
+  }
+  if (surfaces.empty()) {
+    surfaces.push_back({0.5 * field.min + 0.5 * field.max});
+    fmt::print(stderr, "no --isovalue given: drawing the middle of the range, {:.6g}\n",
+               surfaces[0].value);
+  }
+  if (arguments.iso_colors.size() > surfaces.size()) {
+    throw base::UsageError("there are more --iso-color than --isovalue");
+  }
+  double opacity = 1;
+  if (!arguments.iso_opacity.empty())
+    opacity = parse_number(arguments.iso_opacity, "--iso-opacity");
+  if (!(opacity >= 0 && opacity <= 1))
+    throw base::UsageError("--iso-opacity must lie between 0 and 1");
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    preint::Isosurface& surface = surfaces[i];
+    surface.opacity = opacity;
+    surface.color = i < arguments.iso_colors.size()
+                        ? parse_vector(arguments.iso_colors[i], "--iso-color").array()
+                        : transfer_function.at(surface.value).color;
+    if (surface.value < field.min || surface.value > field.max) {
+      warn(fmt::format(
+          "isovalue {:.6g} lies outside the field's range, {:.6g} to {:.6g}: nothing to see of it",
+          surface.value, field.min, field.max));
+    }
+  }
+  return surfaces;
+}
+
+void refuse_iso_options(const RenderArguments& arguments) {
+  if (!arguments.isovalues.empty() || !arguments.iso_colors.empty() ||
+      !arguments.iso_opacity.empty()) {
+    throw base::UsageError("--isovalue, --iso-color and --iso-opacity are for --mode iso");
+  }
+  if (!arguments.shading.empty() && arguments.shading != "none") {
+    throw base::UsageError("--shading " + arguments.shading +
+                           " is for --mode iso; other modes are not shaded");
+  }
+}
+
+}  // namespace
+
+project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
+  project::Scene scene;
+  scene.mesh = &mesh;
+  std::tie(scene.width, scene.height) = parse_size(arguments.size, "--size");
+  scene.mode = parse_choice<Mode>(arguments.mode, "--mode",
+                                  {{"full", Mode::full},
+                                   {"emission", Mode::emission},
+                                   {"absorption", Mode::absorption},
+                                   {"mip", Mode::mip},
+                                   {"iso", Mode::iso},
+                                   {"thickness", Mode::thickness}});
+  scene.mip_of = parse_choice<project::MipOf>(
+      arguments.mip_of, "--mip-of",
+      {{"field", project::MipOf::field}, {"transfer", project::MipOf::transfer}});
+  scene.field = mesh::select_scalar(mesh, arguments.field);
+  scene.drawable = mesh::find_drawable(mesh, scene.field);
+  if (scene.drawable.cells.empty()) {
+    throw base::InputError(fmt::format(
+        "{}: no cell can be drawn: {} have no volume, {} touch values of '{}' or "
+        "coordinates that are not finite",
+        arguments.input, scene.drawable.degenerate, scene.drawable.nan, scene.field.name));
+  }
+  const mesh::Box box = mesh::bounds(mesh);
+  scene.transfer_function = make_transfer_function(arguments, scene.field, box.diagonal().norm());
+  if (scene.mode == Mode::iso) {
+    scene.isosurfaces = make_isosurfaces(arguments, scene.field, scene.transfer_function);
+    scene.shading = parse_choice<project::Shading>(
+        arguments.shading.empty() ? "smooth" : arguments.shading, "--shading",
+        {{"none", project::Shading::none},
+         {"flat", project::Shading::flat},
+         {"smooth", project::Shading::smooth}});
+  } else {
+    refuse_iso_options(arguments);
+  }
+  scene.camera = make_camera(arguments, mesh, static_cast<double>(scene.width) / scene.height);
+  return scene;
+}
+
+project::Request make_request(const RenderArguments& arguments) {
+  using project::ContextKind;
+  using project::Integrator;
+  using project::Projector;
+  using project::SortMethod;
+  project::Request request;
+  request.projector = parse_choice<std::optional<Projector>>(
+      arguments.projector, "--projector",
+      {{"auto", std::nullopt}, {"gl", Projector::gl}, {"reference", Projector::reference}});
+  request.context = parse_choice<std::optional<ContextKind>>(
+      arguments.context, "--context", {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}});
+  request.sort = parse_choice<std::optional<SortMethod>>(arguments.sort, "--sort",
+                                                         {{"auto", std::nullopt},
+                                                          {"none", SortMethod::none},
+                                                          {"centroid", SortMethod::centroid},
+                                                          {"fragments", SortMethod::fragments}});
+  request.integrator = parse_choice<std::optional<Integrator>>(arguments.integrator, "--integrator",
+                                                               {{"auto", std::nullopt},
+                                                                {"exact", Integrator::exact},
+                                                                {"table2d", Integrator::table2d},
+                                                                {"table3d", Integrator::table3d}});
+  if (!arguments.table.empty()) {
+    const std::size_t cross = arguments.table.find('x');
+    request.table_n = parse_count(arguments.table.substr(0, cross), "--table", 2);
+    if (cross != std::string::npos)
+      request.table_m = parse_count(arguments.table.substr(cross + 1), "--table", 2);
+  }
+  return request;
+}
+
+project::Background make_background(const RenderArguments& arguments, Mode mode) {
+  project::Background background;
+  // Absorption alone is black: it shows on white only.
+  if (mode == Mode::absorption) background.rgb = {1, 1, 1};
+  if (arguments.background.empty()) return background;
+  const std::vector<double> rgba = parse_numbers(arguments.background, "--background", 3, 4);
+  for (const double value : rgba) {
+    if (!(value >= 0 && value <= 1))
+      throw base::UsageError("--background needs numbers between 0 and 1");
+  }
+  background.rgb = {rgba[0], rgba[1], rgba[2]};
+  if (rgba.size() == 4) background.alpha = rgba[3];
+  return background;
+}
+
+}  // namespace tetraglass::apps
