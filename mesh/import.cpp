@@ -155,6 +155,8 @@ Import import_mesh(const std::string& file, const ImportOptions& options) {
     return import;
   } catch (const base::InputError& error) {
     throw base::InputError(file + ": " + error.what());
+  } catch (const base::UnavailableError& error) {
+    throw base::UnavailableError(file + ": " + error.what());
   } catch (const base::Error&) {
     throw;
   } catch (const base::UsageError&) {

@@ -52,7 +52,7 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
     if (const std::size_t star = word.find('*'); star != std::string_view::npos) {
       const auto [stop, error] = std::from_chars(word.data(), word.data() + star, times);
       // A repetition that is longer than the whole text could be written is no honest one.
-      constexpr std::size_t kMost = std::size_t{1} << 32U;
+      constexpr std::size_t kMost = std::size_t{1} << 28U;
       if (error != std::errc() || stop != word.data() + star || times > kMost) return std::nullopt;
       word.remove_prefix(star + 1);
     }

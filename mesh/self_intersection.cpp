@@ -76,12 +76,15 @@ class FaultFinder {
     Triangle b = t;
     std::size_t shared = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto found = std::find(b.begin() + static_cast<std::ptrdiff_t>(shared), b.end(), s[i]);
-      if (found == b.end()) continue;
-      std::iter_swap(b.begin() + static_cast<std::ptrdiff_t>(shared), found);
-      std::iter_swap(a.begin() + static_cast<std::ptrdiff_t>(shared), std::ranges::find(a, s[i]));
-      ++shared;
+      for (std::size_t j = shared; j < 3; ++j) {
+        if (a[i] != b[j]) continue;
+        std::swap(a[i], a[shared]);  // what stood there is not shared
+        std::swap(b[j], b[shared]);
+        ++shared;
+        break;
+      }
     }
+
     if (shared == 0) return CGAL::do_intersect(triangle(s), triangle(t));
     if (shared == 1) {
       // Two planes meet in a line through the common corner, so if the triangles share more of it,

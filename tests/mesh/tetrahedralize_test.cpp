@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double total_volume(const TetMesh& mesh) {
+[[maybe_unused]] double total_volume(const TetMesh& mesh) {
   double sum = 0;
   for (const Cell& cell : mesh.cells) sum += tests::volume(mesh, cell);
   return sum;
@@ -42,7 +42,7 @@ void add_cube(MeshData& data, const Vector3d& low, double side, bool outwards = 
   }
 }
 
-std::string refusal(const MeshData& data) {
+[[maybe_unused]] std::string refusal(const MeshData& data) {
   std::vector<std::string> notes;
   try {
     static_cast<void>(fill_surface(data, notes));

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace tetraglass::mesh {
+
+/// What came of work in a process of its own.
+struct Apart {
+  std::string result;  ///< what the work returned
+  std::string ending;  ///< empty, or why it has not: "was stopped (Aborted)"
+};
+
+/// Does the work in a copy of this process, so that libraries that end the process where they fail
+/// end only the copy. What is printed there is lost, and so is every change of memory. The copy may
+/// use `seconds` of processor time. Throws Error where the system allows no more processes.
+[[nodiscard]] Apart run_apart(const std::function<std::string()>& work, unsigned seconds);
+
+}  // namespace tetraglass::mesh

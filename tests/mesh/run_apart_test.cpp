@@ -1,0 +1,56 @@
+#include "mesh/run_apart.h"
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace tetraglass::mesh {
+namespace {
+
+TEST(RunApart, GivesBackWhatTheWorkReturns) {
+  const std::string large(3'000'000, 'x');
+  const Apart apart = run_apart([&] { return large + '\0' + "end"; }, 10);
+  EXPECT_EQ(apart.ending, "");
+  EXPECT_EQ(apart.result, large + '\0' + "end");
+}
+
+TEST(RunApart, OutlivesWorkThatEndsItsProcess) {
+  EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }, 10).ending, "was stopped (Aborted)");
+  EXPECT_EQ(run_apart([]() -> std::string { throw std::runtime_error("no"); }, 10).ending,
+            "failed");
+  EXPECT_EQ(run_apart([]() -> std::string { std::_Exit(3); }, 10).ending, "failed");
+}
+
+TEST(RunApart, StopsWorkThatDoesNotEnd) {
+  const Apart apart = run_apart(
+      []() -> std::string {
+        for (std::atomic<int> i = 0;; ++i) {
+        }
+      },
+      1);
+  EXPECT_NE(apart.ending, "");
+}
+
+TEST(RunApart, PrintsNothingAndChangesNothing) {
+  int value = 1;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  static_cast<void>(run_apart(
+      [&] {
+        value = 2;
+        std::printf("out\n");
+        std::fprintf(stderr, "err\n");
+        std::fflush(stdout);
+        return std::string();
+      },
+      10));
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(value, 1);
+}
+
+}  // namespace
+}  // namespace tetraglass::mesh
