@@ -20,7 +20,7 @@
 namespace tetraglass::project {
 namespace {
 
-constexpr int kSize = 96;  // pixels each way
+constexpr int kSize = 64;  // pixels each way
 
 struct View {
   std::string name;
