@@ -29,8 +29,8 @@ void add_fields(mesh::TetMesh& mesh, const std::vector<std::string>& definitions
     if (equals == 0 || equals == std::string::npos) {
       throw base::UsageError("--add-field needs NAME=EXPRESSION, not '" + definition + "'");
     }
-    mesh.fields.push_back(mesh::evaluate_expression(mesh, definition.substr(0, equals),
-                                                    definition.substr(equals + 1)));
+    const std::string name = CLI::detail::trim_copy(definition.substr(0, equals));
+    mesh.fields.push_back(mesh::evaluate_expression(mesh, name, definition.substr(equals + 1)));
   }
 }
 

@@ -18,10 +18,10 @@ inline constexpr double kUsualCells = 1e5;
 /// one is a cavity if its faces turn towards its inside, and part of the solid if they turn away
 /// from it; where the faces of a surface do not agree on a direction, shells that lie in an odd
 /// number of others are cavities. Points are added within (a regular lattice), and on the surface
-/// where its triangles are large for that; fields are not carried over. What was done is added to `notes`. Throws InputError for a surface that is open
-/// (with the number of its open edges), has no volume, or intersects itself; UnavailableError in a
-/// build without TetGen. Source: Si 2015, "TetGen, a Delaunay-Based Quality Tetrahedral Mesh
-/// Generator".
+/// where its triangles are large for that; fields are not carried over. What was done is added to
+/// `notes`. Throws InputError for a surface that is open (with the number of its open edges), has
+/// no volume, or intersects itself; UnavailableError in a build without TetGen. Source: Si 2015,
+/// "TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator".
 [[nodiscard]] TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
                                    double cells = kUsualCells);
 
