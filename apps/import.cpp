@@ -51,10 +51,13 @@ void add_import(CLI::App& program) {
       program.add_subcommand("import", "Read anything, make tetrahedra of it, write them as .vtu");
   auto arguments = std::make_shared<ImportArguments>();
   app->footer("usage: tetraglass import INPUT -o OUT.vtu [options]");
-  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
+  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
+      ->required();
   app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
   app->add_option("--time", arguments->options.time,
                   "Time step: a time, 'last' (default) or 'index:N'");
+  app->add_option("--raw", arguments->options.raw,
+                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
   app->add_option("--add-field", arguments->new_fields,
                   "NAME=EXPRESSION in x, y, z, radius and point fields, e.g. 'hot=max(0, T - "
                   "400)'; repeatable")

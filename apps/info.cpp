@@ -112,9 +112,12 @@ void add_info(CLI::App& program) {
   CLI::App* app = program.add_subcommand("info", "What is in a file, and what is wrong with it");
   auto arguments = std::make_shared<InfoArguments>();
   app->footer("usage: tetraglass info INPUT [--json]");
-  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
+  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
+      ->required();
   app->add_option("--time", arguments->options.time,
                   "Time step: a time, 'last' (default) or 'index:N'");
+  app->add_option("--raw", arguments->options.raw,
+                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
   app->add_flag("--json", arguments->json, "Print JSON");
   app->callback([arguments] {
     const mesh::Import imported = import_and_tell(arguments->input, arguments->options);

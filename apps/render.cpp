@@ -136,6 +136,8 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "Point or cell field; NAME:x|y|z|magnitude or NAME:INDEX of one with components. "
                   "Default: the first scalar");
   app->add_option("--time", a.import.time, "Time step: a time, 'last' (default) or 'index:N'");
+  app->add_option("--raw", a.import.raw,
+                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
   app->add_option("--mode", a.mode, "full | emission | absorption | mip | iso | thickness")
       ->capture_default_str();
   app->add_option("--mip-of", a.mip_of,

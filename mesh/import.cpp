@@ -20,6 +20,7 @@
 #include "mesh/read_plot3d.h"
 #include "mesh/read_surface.h"
 #include "mesh/read_tetgen.h"
+#include "mesh/read_volume.h"
 #include "mesh/read_vtk.h"
 #include "mesh/tetrahedralize.h"
 
@@ -50,6 +51,7 @@ const std::vector<Format>& formats() {
        }},
       {{".xyz", ".bin", ".x", ".g", ".grd", ".p3d"}, timeless(read_plot3d)},
       {{".off", ".obj", ".stl", ".ply"}, timeless(read_surface), true},
+      {{".nrrd", ".nhdr", ".mhd", ".mha", ".inr", ".slc"}, timeless(read_volume)},
       {{".node", ".ele"}, timeless(read_tetgen), true},
       {{".msh"},
        [](const std::string& file, const ImportOptions& options) {
@@ -68,6 +70,11 @@ const Format& find_format(const std::string& file) {
   if (extension == ".q") {
     throw base::ReadError(file, "is a PLOT3D solution; give the grid file beside it instead");
   }
+  if (extension == ".raw") {
+    throw base::ReadError(file,
+                          "holds bare values; tell their layout by --raw WIDTHxHEIGHTxDEPTH:TYPE, "
+                          "such as 64x64x64:uint8");
+  }
   const std::vector<std::string> known = readable_extensions();
   const std::vector<std::string> near =
       extension.empty() ? std::vector<std::string>{} : base::nearest_names(extension, known);
@@ -76,6 +83,14 @@ const Format& find_format(const std::string& file) {
       fmt::format("its extension {} is not known{}; readable are {}",
                   extension.empty() ? "is missing, or" : "'" + extension + "'",
                   near.empty() ? "" : base::suggestion(extension, near), fmt::join(known, " ")));
+}
+
+/// That of bare values, which no extension tells.
+const Format& raw_format() {
+  static const Format kFormat = {{}, [](const std::string& file, const ImportOptions& options) {
+                                   return read_raw(file, options.raw);
+                                 }};
+  return kFormat;
 }
 
 void check_readable(const std::string& file) {
@@ -140,7 +155,7 @@ TetMesh make_tetrahedra(const MeshData& data, bool may_be_points, ImportReport& 
 
 Import import_mesh(const std::string& file, const ImportOptions& options) {
   check_readable(file);
-  const Format& format = find_format(file);
+  const Format& format = options.raw.empty() ? find_format(file) : raw_format();
   try {
     Import import;
     base::Stopwatch clock;

@@ -13,6 +13,7 @@ namespace tetraglass::mesh {
 /// How to turn a file into tetrahedra. The defaults suit a first look.
 struct ImportOptions {
   std::string time;  ///< "" or "last", a time value, or "index:N"; for files with time steps
+  std::string raw;   ///< the layout of a file of bare values, as `read_raw` wants it; "" for others
 };
 
 /// What the file held and what was done to it.
