@@ -191,6 +191,17 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
          "auto | exact (no table) | table2d (emission, absorption, mip, iso) | table3d (full)")
       ->capture_default_str();
   app->add_option("--table", a.table, "N[xM], values and lengths of the table");
+  app->add_option("--layout", a.layout,
+                  "auto | indexed | strip | faces12 | faces12-short (Weiler's 12 vertices a cell, "
+                  "as floats or 16-bit numbers), for --projector gl")
+      ->capture_default_str();
+  app->add_option("--edge-fix", a.edge_fix, "on (default) | off, for --layout faces12");
+  app->add_option("--minimum", a.minimum,
+                  "shader (default) | texture8 | texture16: where faces12 finds the exit");
+  app->add_option("--perspective", a.perspective,
+                  "exact (default) | affine: what faces12 interpolates in perspective views");
+  app->add_option("--target-format", a.target_format,
+                  "rgba32f (default) | rgba16f | rgba8: what --projector gl accumulates in");
   app->add_option("--threads", a.threads, "Most threads to use. Default: all");
   app->add_flag("--explain", a.explain,
                 "Print how the picture is drawn, and why, before drawing it");

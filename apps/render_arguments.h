@@ -37,6 +37,11 @@ struct RenderArguments {
   std::string sort = "auto";
   std::string integrator = "auto";
   std::string table;
+  std::string layout = "auto";
+  std::string edge_fix;
+  std::string minimum;
+  std::string perspective;
+  std::string target_format;
   std::string shading;
   std::string background;
   std::string stats;

@@ -143,6 +143,45 @@ void refuse_iso_options(const RenderArguments& arguments) {
   }
 }
 
+/// The layouts of weiler2002 have one gradient per cell.
+std::string default_shading(const RenderArguments& arguments) {
+  return arguments.layout.rfind("faces12", 0) == 0 ? "flat" : "smooth";
+}
+
+project::GlRequest make_gl_request(const RenderArguments& arguments) {
+  using project::Layout;
+  using project::Minimum;
+  using project::TargetFormat;
+  project::GlRequest request;
+  request.layout = parse_choice<std::optional<Layout>>(arguments.layout, "--layout",
+                                                       {{"auto", std::nullopt},
+                                                        {"indexed", Layout::indexed},
+                                                        {"strip", Layout::strip},
+                                                        {"faces12", Layout::faces12},
+                                                        {"faces12-short", Layout::faces12_short}});
+  if (!arguments.edge_fix.empty()) {
+    request.edge_fix =
+        parse_choice<bool>(arguments.edge_fix, "--edge-fix", {{"on", true}, {"off", false}});
+  }
+  if (!arguments.minimum.empty()) {
+    request.minimum = parse_choice<Minimum>(arguments.minimum, "--minimum",
+                                            {{"shader", Minimum::shader},
+                                             {"texture8", Minimum::texture8},
+                                             {"texture16", Minimum::texture16}});
+  }
+  if (!arguments.perspective.empty()) {
+    request.interpolate_lengths = parse_choice<bool>(arguments.perspective, "--perspective",
+                                                     {{"exact", false}, {"affine", true}});
+  }
+  if (!arguments.target_format.empty()) {
+    request.target = parse_choice<TargetFormat>(arguments.target_format, "--target-format",
+                                                {{"rgba32f", TargetFormat::rgba32f},
+                                                 {"rgba16f", TargetFormat::rgba16f},
+                                                 {"rgba8", TargetFormat::rgba8}});
+  }
+  return request;
+}
+
 }  // namespace
 
 project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
@@ -172,7 +211,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   if (scene.mode == Mode::iso) {
     scene.isosurfaces = make_isosurfaces(arguments, scene.field, scene.transfer_function);
     scene.shading = parse_choice<project::Shading>(
-        arguments.shading.empty() ? "smooth" : arguments.shading, "--shading",
+        arguments.shading.empty() ? default_shading(arguments) : arguments.shading, "--shading",
         {{"none", project::Shading::none},
          {"flat", project::Shading::flat},
          {"smooth", project::Shading::smooth}});
@@ -204,6 +243,7 @@ project::Request make_request(const RenderArguments& arguments) {
                                                                 {"exact", Integrator::exact},
                                                                 {"table2d", Integrator::table2d},
                                                                 {"table3d", Integrator::table3d}});
+  request.gl = make_gl_request(arguments);
   if (!arguments.table.empty()) {
     const std::size_t cross = arguments.table.find('x');
     request.table_n = parse_count(arguments.table.substr(0, cross), "--table", 2);

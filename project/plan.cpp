@@ -103,8 +103,11 @@ Plan plan(const Scene& scene, const Request& request) {
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);
     plan.reasons.push_back("context: " + to_string(plan.context) + ", needs no display and no GPU");
-  } else if (request.context) {
-    throw base::UsageError("--context is for --projector gl");
+    plan.gl = plan_gl(scene, request.gl, plan.reasons);
+  } else if (request.context || is_any_set(request.gl)) {
+    throw base::UsageError(
+        "--context, --layout, --edge-fix, --minimum, --perspective and --target-format are for "
+        "--projector gl");
   }
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
     throw base::UsageError(

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "project/gl_plan.h"
 #include "project/scene.h"
 
 namespace tetraglass::project {
@@ -21,6 +22,7 @@ struct Request {
   std::optional<ContextKind> context;
   int table_n = 0;  ///< scalar resolution of the table, 0: chosen
   int table_m = 0;  ///< length resolution of the 3D table, 0: chosen
+  GlRequest gl;     ///< for the gl projector only
 };
 
 /// How a scene is drawn, and why.
@@ -31,6 +33,7 @@ struct Plan {
   ContextKind context = ContextKind::none;
   int table_n = 0;                   ///< 0: no table
   int table_m = 0;                   ///< 0: no length axis
+  GlPlan gl;                         ///< for the gl projector only
   bool gradients = false;            ///< per-vertex gradients are computed (smooth shading)
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };

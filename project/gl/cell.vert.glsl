@@ -1,4 +1,4 @@
-// Four vertices for each cell, made from its number: the cell's planes for the fragment stage, the same at all
+// Four vertices for each cell (six where its faces are a strip), made from its number: the cell's planes for the fragment stage, the same at all
 // four, and the position of one corner.
 
 uniform usamplerBuffer cells;     // vertex ids, ascending; the top bit of the last: negatively oriented so
@@ -103,7 +103,13 @@ vec4 corner_position(dvec3 p[4], int corner) {
 }
 
 void main() {
+#ifdef STRIP
+  int k = gl_VertexID / 6;
+  int corner = int[6](1, 0, 2, 3, 1, 0)[gl_VertexID - 6 * k];
+#else
   int k = gl_VertexID >> 2;
+  int corner = gl_VertexID & 3;
+#endif
 #ifdef ORDERED
   int cell = int(texelFetch(order, k).x);
 #else
@@ -185,7 +191,6 @@ void main() {
   }
 #endif
 
-  int corner = gl_VertexID & 3;
   // Faces are numbered for positive cells: the mirror image of those swaps two corners.
   if (negative && corner >= 2) corner = 5 - corner;
   gl_Position = corner_position(p, corner);

@@ -45,7 +45,20 @@ Table table_2d(const Context& context, const Scene& scene, const Plan& plan, dou
       iso ? iso_table(scene.isosurfaces, low, high, plan.table_n)
           : (scene.mode == Mode::mip ? mip_table(tf, low, high, plan.table_n)
                                      : emission_table(tf, low, high, plan.table_n));
-  return {context, {table.n, table.n, 0}, table.rgba, !iso};
+  return {context, Texel::rgba32f, {table.n, table.n, 0}, table.rgba, !iso};
+}
+
+Texel target_texel(const Scene& scene, TargetFormat format) {
+  const bool scalar = has_scalar_target(scene);
+  switch (format) {
+    case TargetFormat::rgba32f:
+      return scalar ? Texel::r32f : Texel::rgba32f;
+    case TargetFormat::rgba16f:
+      return scalar ? Texel::r16f : Texel::rgba16f;
+    case TargetFormat::rgba8:
+      break;
+  }
+  return Texel::rgba8;
 }
 
 // Two texels a surface, ascending: what crossing.glsl reads. Of equal isovalues the first is the
@@ -75,9 +88,7 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       normalization_(scene),
       drawn_(drawn_cells(scene, normalization_)),
-      mesh_(context, scene, normalization_,
-            scene.mode == Mode::iso && scene.shading == Shading::smooth),
-      faces_(context),
+      cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       counter_(context) {
   if (plan.sort == SortMethod::fragments) {
     throw base::UnavailableError("the gl projector sorts cells, not fragments");
@@ -89,11 +100,6 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
   if (scene.mode == Mode::iso && plan.integrator == Integrator::exact) {
     surfaces_.emplace(context, Texel::rgba32f);
     surfaces_->upload(surface_texels(scene, normalization_), "isosurfaces");
-  }
-  // Without an order the cells to draw are still told by their numbers, unless all are.
-  if (plan.sort != SortMethod::none || drawn_.size() != scene.mesh->cells.size()) {
-    order_.emplace(context, Texel::r32ui);
-    if (plan.sort == SortMethod::none) order_->upload(drawn_, "cells");
   }
 }
 
@@ -110,7 +116,8 @@ void CellProjector::make_tables(Stats& stats) {
     const preint::Table3D table =
         full_table(tf, low, high, longest_edge(scene_) / radius, plan_.table_n, plan_.table_m);
     table_length_ = static_cast<float>(table.max_length);
-    table_.emplace(context_, std::array<int, 3>{table.n, table.n, table.m}, table.rgba, true);
+    table_.emplace(context_, Texel::rgba32f, std::array<int, 3>{table.n, table.n, table.m},
+                   table.rgba, true);
   }
   stats.tables_ms += clock.milliseconds();
 }
@@ -118,15 +125,11 @@ void CellProjector::make_tables(Stats& stats) {
 const Program& CellProjector::program(bool parallel) {
   std::optional<Program>& program = parallel ? parallel_program_ : perspective_program_;
   if (program) return *program;
-  const std::vector<std::string> names =
-      shader_switches(scene_, plan_, parallel, order_.has_value());
-  program.emplace(context_, shader_source("cell.vert.glsl", names),
+  std::vector<std::string> names = shader_switches(scene_, plan_, parallel);
+  for (std::string& name : cells_->switches()) names.push_back(std::move(name));
+  program.emplace(context_, shader_source(cells_->vertex_shader(), names),
                   shader_source("cell.frag.glsl", names));
-  program->set("cells", Units::kCells);
-  program->set("vertices", Units::kVertices);
-  program->set("order", Units::kOrder);
-  program->set("cell_values", Units::kCellValues);
-  program->set("gradients", Units::kGradients);
+  cells_->set_uniforms(*program);
   program->set("medium_pieces", Units::kMediumPieces);
   program->set("medium_index", Units::kMediumIndex);
   program->set("table", Units::kTable);
@@ -140,7 +143,7 @@ void CellProjector::order_cells(const Frame& frame, Stats& stats) {
   if (plan_.sort == SortMethod::none) return;
   const base::Stopwatch clock;
   const sort::Order order = sorter_.sort(*scene_.mesh, drawn_, frame.view());
-  order_->upload(order.cells, "cells");
+  cells_->set_order(order.cells);
   stats.sort_method = order.method;
   stats.sort_exact = order.exact;
   stats.cycles += order.cycles;
@@ -148,8 +151,6 @@ void CellProjector::order_cells(const Frame& frame, Stats& stats) {
 }
 
 void CellProjector::bind() const {
-  mesh_.bind();
-  if (order_) order_->bind(Units::kOrder);
   if (medium_) medium_->bind();
   if (surfaces_) surfaces_->bind(Units::kSurfaces);
   if (table_) table_->bind(Units::kTable);
@@ -169,12 +170,11 @@ void CellProjector::set_blending() const {
   const bool over = scene_.mode == Mode::full || scene_.mode == Mode::iso;
   gl.BlendEquation(scene_.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
   gl.BlendFunc(GL_ONE, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
-  // Of the outline's two covers the one by the faces that are seen from behind: it is there even
-  // where the eye is inside a cell. Counter-clockwise, since both the face and the picture's rows
-  // are turned.
+  // Of the outline's two covers that by the faces seen from behind is there even where the eye is
+  // inside a cell. Counter-clockwise, since both the face and the picture's rows are turned.
   gl.Enable(GL_CULL_FACE);
   gl.CullFace(GL_BACK);
-  gl.FrontFace(GL_CCW);
+  gl.FrontFace(cells_->draws_front_faces() ? GL_CW : GL_CCW);
 }
 
 void CellProjector::draw_tile(const Program& program, const ViewUniforms& view, const Tile& tile,
@@ -182,7 +182,7 @@ void CellProjector::draw_tile(const Program& program, const ViewUniforms& view, 
   view.set(program, tile, context_.limits().subpixel_bits);
   target.begin(empty_pixel(scene_), tile.width, tile.height);
   program.use();
-  faces_.draw(drawn_.size());
+  cells_->draw();
   read_tile(target, scene_, normalization_, tile, image);
 }
 
@@ -196,7 +196,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     const Program& shaders = program(frame.parallel());
     const int width = std::min(frame.width(), largest_tile_);
     const int height = std::min(frame.height(), largest_tile_);
-    const Target target(context_, has_scalar_target(scene_) ? Texel::r32f : Texel::rgba32f,
+    const Target target(context_, target_texel(scene_, plan_.gl.target),
                         draws_opaque_surfaces(scene_), width, height);
     bind();
     set_blending();

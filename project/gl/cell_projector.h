@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "project/camera.h"
+#include "project/gl/cell_layout.h"
 #include "project/gl/drawn_cells.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/mesh_buffers.h"
@@ -48,13 +49,11 @@ class CellProjector {
   int largest_tile_;
   Normalization normalization_;
   std::vector<std::uint32_t> drawn_;
-  MeshBuffers mesh_;
+  std::unique_ptr<CellLayout> cells_;
   std::optional<MediumBuffers> medium_;
   std::optional<TextureBuffer> surfaces_;
   std::optional<Table> table_;
   float table_length_ = 1;  // in normalized units
-  std::optional<TextureBuffer> order_;
-  CellFaces faces_;
   FragmentCounter counter_;
   std::optional<Program> parallel_program_;
   std::optional<Program> perspective_program_;

@@ -114,4 +114,9 @@ void MeshBuffers::bind() const {
   if (gradients_) gradients_->bind(Units::kGradients);
 }
 
+std::size_t MeshBuffers::bytes() const {
+  return cells_.bytes() + vertices_.bytes() + (cell_values_ ? cell_values_->bytes() : 0) +
+         (gradients_ ? gradients_->bytes() : 0);
+}
+
 }  // namespace tetraglass::project::gl

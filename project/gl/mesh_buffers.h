@@ -20,6 +20,8 @@ class MeshBuffers {
   /// Makes them the textures of the units that `Units` names.
   void bind() const;
 
+  [[nodiscard]] std::size_t bytes() const;
+
  private:
   TextureBuffer cells_;
   TextureBuffer vertices_;
@@ -38,6 +40,7 @@ struct Units {
   static constexpr int kMediumIndex = 6;
   static constexpr int kTable = 7;
   static constexpr int kSurfaces = 8;
+  static constexpr int kMinima = 9;
 };
 
 }  // namespace tetraglass::project::gl

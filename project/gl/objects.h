@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -49,7 +50,7 @@ class Name {
 };
 
 /// How a texel is stored: components and type.
-enum class Texel { r32f, rgba32f, r32ui, rgba32ui };
+enum class Texel { r8, r16, r16f, r32f, rgba8, rgba16f, rgba32f, r32ui, rgba32ui };
 
 /// The bytes of a texel.
 [[nodiscard]] std::size_t texel_bytes(Texel texel);
@@ -63,9 +64,11 @@ class Buffer {
   void upload(std::span<const std::byte> bytes);
 
   [[nodiscard]] unsigned get() const { return name_.get(); }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
   Name name_;
+  std::size_t bytes_ = 0;
 };
 
 /// A buffer that shaders read texel by texel (samplerBuffer).
@@ -82,6 +85,8 @@ class TextureBuffer {
 
   void bind(int unit) const;
 
+  [[nodiscard]] std::size_t bytes() const { return buffer_.bytes(); }
+
  private:
   void upload(std::span<const std::byte> bytes, const char* what);
 
@@ -90,13 +95,15 @@ class TextureBuffer {
   Name texture_;
 };
 
-/// A texture of RGBA32F samples.
+/// A texture of samples between which the shaders interpolate, or the nearest of which they take.
 class Table {
  public:
-  /// `size`: width, height and depth in texels; depth 0 makes a 2D texture. `rgba` has 4 floats a
-  /// texel. `linear` interpolates between texel centres, otherwise the nearest one counts; the
-  /// edges extend outwards. Throws UnavailableError where it is larger than the context can hold.
-  Table(const Context& context, std::array<int, 3> size, std::span<const float> rgba, bool linear);
+  /// `size`: width, height and depth in texels; depth 0 makes a 2D texture. `values` has one float
+  /// per component of a texel. `linear` interpolates between texel centres, otherwise the nearest
+  /// one counts; the edges extend outwards. Throws UnavailableError where it is larger than the
+  /// context can hold.
+  Table(const Context& context, Texel texel, std::array<int, 3> size, std::span<const float> values,
+        bool linear);
 
   void bind(int unit) const;
 
@@ -115,7 +122,7 @@ class Target {
   void begin(float value, int width, int height) const;
 
   /// Reads the lower left width x height, rows from the bottom, `stride` pixels from one row to the
-  /// next. 1 float a pixel for r32f, else 4.
+  /// next. One float per component.
   void read(int width, int height, float* pixels, int stride) const;
 
  private:
@@ -140,17 +147,47 @@ class FragmentCounter {
   Name query_;
 };
 
-/// The four faces of a run of cells as triangles: vertex 4 k + i is corner i of the k-th cell.
+/// The four faces of cells, from vertices that only have numbers: as triangles (vertex 4 k + i is
+/// corner i of the k-th cell) or as strips of 6 vertices.
 class CellFaces {
  public:
-  explicit CellFaces(const Context& context);
+  CellFaces(const Context& context, bool strips);
 
   /// Draws cells 0 to count - 1 with the current program.
   void draw(std::size_t count) const;
 
  private:
+  bool strips_;
   Buffer indices_;
   Name vertex_array_;
+};
+
+/// Plain vertex arrays: attribute i of every vertex lies in an array of its own.
+class VertexArrays {
+ public:
+  explicit VertexArrays(const Context& context);
+
+  /// Attribute `location` of each vertex: N floats or 16-bit integers, which shaders read as
+  /// floats. Returns the bytes of the array. Throws UnavailableError where there is no memory for
+  /// it.
+  template <class Number, std::size_t N>
+  std::size_t add(unsigned location, const std::vector<std::array<Number, N>>& values) {
+    static_assert(std::is_same_v<Number, float> || std::is_same_v<Number, std::int16_t>);
+    return add(location, std::as_bytes(std::span(values)), N, std::is_same_v<Number, float>);
+  }
+
+  /// Draws the first `vertices` as triangles.
+  void draw(std::size_t vertices) const;
+
+  /// Draws runs of `size` vertices as triangles, each from its first.
+  void draw_runs(const std::vector<int>& firsts, int size) const;
+
+ private:
+  std::size_t add(unsigned location, std::span<const std::byte> bytes, std::size_t components,
+                  bool floats);
+
+  Name vertex_array_;
+  std::vector<Buffer> buffers_;
 };
 
 }  // namespace tetraglass::project::gl

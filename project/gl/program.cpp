@@ -108,6 +108,16 @@ void Program::set(const char* uniform, const Eigen::Vector2f& value) const {
   program_.context().gl().ProgramUniform2f(program_.get(), location(uniform), value.x(), value.y());
 }
 
+void Program::set(const char* uniform, const Eigen::Vector3f& value) const {
+  program_.context().gl().ProgramUniform3f(program_.get(), location(uniform), value.x(), value.y(),
+                                           value.z());
+}
+
+void Program::set(const char* uniform, const Eigen::Vector4f& value) const {
+  program_.context().gl().ProgramUniform4f(program_.get(), location(uniform), value.x(), value.y(),
+                                           value.z(), value.w());
+}
+
 void Program::set(const char* uniform, const Eigen::Vector2d& value) const {
   program_.context().gl().ProgramUniform2d(program_.get(), location(uniform), value.x(), value.y());
 }
@@ -120,6 +130,11 @@ void Program::set(const char* uniform, const Eigen::Vector3d& value) const {
 void Program::set(const char* uniform, const Eigen::Matrix3d& value) const {
   // Both Eigen and OpenGL store matrices by columns.
   program_.context().gl().ProgramUniformMatrix3dv(program_.get(), location(uniform), 1, GL_FALSE,
+                                                  value.data());
+}
+
+void Program::set(const char* uniform, const Eigen::Matrix4f& value) const {
+  program_.context().gl().ProgramUniformMatrix4fv(program_.get(), location(uniform), 1, GL_FALSE,
                                                   value.data());
 }
 

@@ -34,9 +34,12 @@ class Program {
   void set(const char* uniform, float value) const;
   void set(const char* uniform, double value) const;
   void set(const char* uniform, const Eigen::Vector2f& value) const;
+  void set(const char* uniform, const Eigen::Vector3f& value) const;
+  void set(const char* uniform, const Eigen::Vector4f& value) const;
   void set(const char* uniform, const Eigen::Vector2d& value) const;
   void set(const char* uniform, const Eigen::Vector3d& value) const;
   void set(const char* uniform, const Eigen::Matrix3d& value) const;
+  void set(const char* uniform, const Eigen::Matrix4f& value) const;
 
  private:
   [[nodiscard]] int location(const char* uniform) const;

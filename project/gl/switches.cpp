@@ -40,11 +40,9 @@ bool reads_medium(const Scene& scene, const Plan& plan) {
          scene.mode != Mode::iso && !is_field_maximum(scene);
 }
 
-std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, bool parallel,
-                                         bool ordered) {
+std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, bool parallel) {
   std::vector<std::string> names = {mode_switch(scene)};
   if (parallel) names.emplace_back("PARALLEL");
-  if (ordered) names.emplace_back("ORDERED");
   if (has_scalar_target(scene)) names.emplace_back("SCALAR_TARGET");
   if (scene.mode != Mode::thickness) {
     names.emplace_back(scene.field.location == mesh::Location::cell ? "CELL_FIELD" : "VALUES");

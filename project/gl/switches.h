@@ -18,8 +18,8 @@ namespace tetraglass::project::gl {
 /// Whether the fragment stage integrates the transfer function itself.
 [[nodiscard]] bool reads_medium(const Scene& scene, const Plan& plan);
 
-/// The `#define`s of the shaders. `ordered`: cells come in the order of a list.
+/// The `#define`s of the shaders, but for those that the layout of the cells adds.
 [[nodiscard]] std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan,
-                                                       bool parallel, bool ordered);
+                                                       bool parallel);
 
 }  // namespace tetraglass::project::gl

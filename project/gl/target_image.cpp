@@ -12,7 +12,8 @@
 namespace tetraglass::project::gl {
 namespace {
 
-constexpr float kNoValue = -std::numeric_limits<float>::max();
+// Normalized values lie in [-1, 1]; every format holds this one.
+constexpr float kNoValue = -2;
 
 float finite(double value) {
   constexpr double kMost = std::numeric_limits<float>::max();

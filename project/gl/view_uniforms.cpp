@@ -42,6 +42,28 @@ void ViewUniforms::set(const Program& program, const Tile& tile, int subpixel_bi
   program.set("tile_origin", Eigen::Vector2d(tile.x, tile.y));
   program.set("tile_size", Eigen::Vector2d(tile.width, tile.height));
 
+  // For the layouts that place their vertices in floats: a point's product with the matrix is
+  // (2 x / width - w, 2 y / height - w, 0, w), x and y its pixel position in the tile times w.
+  Eigen::Matrix<double, 3, 4> camera;
+  camera << axes_, origin_;
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  if (parallel_) {
+    clip(3, 3) = 1;
+  } else {
+    clip.row(3) = camera.row(2);
+  }
+  const Eigen::Vector2d middle = middle_ - Eigen::Vector2d(tile.x, tile.y);
+  clip.row(0) =
+      (2 / pitch_ * camera.row(0) + 2 * middle.x() * clip.row(3)) / tile.width - clip.row(3);
+  clip.row(1) =
+      (-2 / pitch_ * camera.row(1) + 2 * middle.y() * clip.row(3)) / tile.height - clip.row(3);
+  program.set("to_clip", Eigen::Matrix4f(clip.cast<float>()));
+  program.set("eye", Eigen::Vector3f((-axes_.transpose() * origin_).cast<float>()));
+  program.set("direction", Eigen::Vector3f(axes_.row(2).transpose().cast<float>()));
+  Eigen::Vector4d depth = camera.row(2);
+  depth.w() -= focus_;
+  program.set("to_depth", Eigen::Vector4f(depth.cast<float>()));
+
   // Vertices are exact to 2^-25 sqrt(3) units, planes to 2^-24 of the distance from their anchor on
   // the screen: twice as much moves a ray off any edge that it would meet but for rounding. Four
   // times as far to the right as up, so that up counts where right does not.

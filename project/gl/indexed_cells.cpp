@@ -1,0 +1,49 @@
+#include "project/gl/indexed_cells.h"
+
+namespace tetraglass::project::gl {
+
+IndexedCells::IndexedCells(const Context& context, const Scene& scene, const Plan& plan,
+                           const Normalization& normalization,
+                           const std::vector<std::uint32_t>& drawn)
+    : strip_(plan.gl.layout == Layout::strip),
+      count_(drawn.size()),
+      mesh_(context, scene, normalization,
+            scene.mode == Mode::iso && scene.shading == Shading::smooth),
+      faces_(context, strip_) {
+  // Without an order the cells to draw are still told by their numbers, unless all are.
+  if (plan.sort != SortMethod::none || drawn.size() != scene.mesh->cells.size()) {
+    order_.emplace(context, Texel::r32ui);
+    if (plan.sort == SortMethod::none) order_->upload(drawn, "cells");
+  }
+}
+
+std::vector<std::string> IndexedCells::switches() const {
+  std::vector<std::string> names;
+  if (order_) names.emplace_back("ORDERED");
+  if (strip_) names.emplace_back("STRIP");
+  return names;
+}
+
+void IndexedCells::set_uniforms(const Program& program) const {
+  program.set("cells", Units::kCells);
+  program.set("vertices", Units::kVertices);
+  program.set("order", Units::kOrder);
+  program.set("cell_values", Units::kCellValues);
+  program.set("gradients", Units::kGradients);
+}
+
+void IndexedCells::set_order(const std::vector<std::uint32_t>& cells) {
+  order_->upload(cells, "cells");
+}
+
+void IndexedCells::draw() const {
+  mesh_.bind();
+  if (order_) order_->bind(Units::kOrder);
+  faces_.draw(count_);
+}
+
+std::size_t IndexedCells::bytes() const {
+  return mesh_.bytes() + (order_ ? order_->bytes() : 0);
+}
+
+}  // namespace tetraglass::project::gl
