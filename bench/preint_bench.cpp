@@ -68,7 +68,7 @@ const auto kMilliseconds = benchmark::kMillisecond;
 BENCHMARK_CAPTURE(segment, thin_in_one_piece, 0.51, 0.53, 0.01);
 BENCHMARK_CAPTURE(segment, whole_range_16_pieces, 0.0, 1.0, 1.0);
 BENCHMARK_CAPTURE(segment, opaque, 0.2, 0.9, 1000.0);
-BENCHMARK(lights_of_pieces)->Arg(10)->Arg(100)->Arg(1000);
+BENCHMARK(lights_of_pieces)->Arg(10)->Arg(90)->Arg(400)->Arg(1000);
 
 BENCHMARK_CAPTURE(table_2d, incremental, TableMethod::incremental)
     ->RangeMultiplier(2)

@@ -1,6 +1,5 @@
 #include "preint/piece_light.h"
 
-#include <array>
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
@@ -8,51 +7,45 @@
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 #include <hwy/highway.h>
 
-#include "preint/gauss.h"
 #include "preint/piece_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::preint::HWY_NAMESPACE {
 
-template <std::size_t kNodes>
-void lights(const PieceBatch& batch, const std::array<GaussNode, kNodes>& rule, int parts,
-            float reached) {
+/// `light(d, k_front, k_back)` of all pieces, the last ones one by one.
+template <class Light>
+HWY_INLINE void for_all_pieces(const PieceBatch& batch, const Light& light) {
   namespace hn = hwy::HWY_NAMESPACE;
+  const auto pieces = [&](auto d, std::size_t begin, std::size_t end) HWY_ATTR {
+    for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+      const auto l = light(d, hn::LoadU(d, &batch.k_front[i]), hn::LoadU(d, &batch.k_back[i]));
+      hn::StoreU(l.front, d, &batch.front[i]);
+      hn::StoreU(l.back, d, &batch.back[i]);
+      hn::StoreU(l.transmittance, d, &batch.transmittance[i]);
+    }
+  };
   const hn::ScalableTag<float> d;
-  const std::size_t lanes = hn::Lanes(d);
   const std::size_t count = batch.k_front.size();
-  const std::size_t whole = count - count % lanes;
-  for (std::size_t i = 0; i < whole; i += lanes) {
-    const auto light = piece_light(d, hn::LoadU(d, &batch.k_front[i]),
-                                   hn::LoadU(d, &batch.k_back[i]), rule, parts, reached);
-    hn::StoreU(light.front, d, &batch.front[i]);
-    hn::StoreU(light.back, d, &batch.back[i]);
-    hn::StoreU(light.transmittance, d, &batch.transmittance[i]);
-  }
-  const hn::CappedTag<float, 1> single;
-  for (std::size_t i = whole; i < count; ++i) {
-    const auto light = piece_light(single, hn::Set(single, batch.k_front[i]),
-                                   hn::Set(single, batch.k_back[i]), rule, parts, reached);
-    batch.front[i] = hn::GetLane(light.front);
-    batch.back[i] = hn::GetLane(light.back);
-    batch.transmittance[i] = hn::GetLane(light.transmittance);
-  }
+  const std::size_t whole = count - count % hn::Lanes(d);
+  pieces(d, 0, whole);
+  pieces(hn::CappedTag<float, 1>(), whole, count);
 }
 
-// The bounds of the rules are those of the segment integral for 1e-6.
-void lights4(const PieceBatch& batch) {
-  lights(batch, kGauss4, 1, 0);
+void lights_thin(const PieceBatch& batch) {
+  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
+                            HWY_ATTR { return piece_light_thin(d, k_front, k_back); });
 }
-void lights6(const PieceBatch& batch) {
-  lights(batch, kGauss6, 1, 0);
+void lights_moderate(const PieceBatch& batch) {
+  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
+                            HWY_ATTR { return piece_light_moderate(d, k_front, k_back); });
 }
-void lights10(const PieceBatch& batch) {
-  lights(batch, kGauss10, 1, 0);
+void lights_dense(const PieceBatch& batch) {
+  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
+                            HWY_ATTR { return piece_light_dense(d, k_front, k_back); });
 }
-
-/// Behind a depth of 17 lies less than 5e-8.
-void lights_deep(const PieceBatch& batch) {
-  lights(batch, kGauss10, 2, 17);
+void lights_any(const PieceBatch& batch) {
+  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
+                            HWY_ATTR { return piece_light(d, k_front, k_back); });
 }
 
 }  // namespace tetraglass::preint::HWY_NAMESPACE
@@ -61,20 +54,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tetraglass::preint {
 
-HWY_EXPORT(lights4);
-HWY_EXPORT(lights6);
-HWY_EXPORT(lights10);
-HWY_EXPORT(lights_deep);
+HWY_EXPORT(lights_thin);
+HWY_EXPORT(lights_moderate);
+HWY_EXPORT(lights_dense);
+HWY_EXPORT(lights_any);
 
 void piece_lights(const PieceBatch& batch, float deepest) {
-  if (deepest <= 0.28F) {
-    HWY_DYNAMIC_DISPATCH(lights4)(batch);
-  } else if (deepest <= 1.9F) {
-    HWY_DYNAMIC_DISPATCH(lights6)(batch);
-  } else if (deepest <= 8.8F) {
-    HWY_DYNAMIC_DISPATCH(lights10)(batch);
+  if (deepest <= kThinPiece) {
+    HWY_DYNAMIC_DISPATCH(lights_thin)(batch);
+  } else if (deepest <= kModeratePiece) {
+    HWY_DYNAMIC_DISPATCH(lights_moderate)(batch);
+  } else if (deepest <= kDensePiece) {
+    HWY_DYNAMIC_DISPATCH(lights_dense)(batch);
   } else {
-    HWY_DYNAMIC_DISPATCH(lights_deep)(batch);
+    HWY_DYNAMIC_DISPATCH(lights_any)(batch);
   }
 }
 

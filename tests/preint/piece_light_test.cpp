@@ -30,7 +30,7 @@ Radiance exact(float k_front, float k_back) {
 
 TEST(PieceLight, WithinAMillionthForEveryBound) {
   const float infinity = std::numeric_limits<float>::infinity();
-  for (const float deepest : {1e-3F, 0.28F, 1.9F, 8.8F, 16.0F, 200.0F, infinity}) {
+  for (const float deepest : {1e-3F, 0.25F, 0.99F, 4.8F, 8.0F, 16.0F, 200.0F, infinity}) {
     std::vector<float> k_front, k_back;
     const float most = std::isfinite(deepest) ? deepest : 1e15F;
     for (int exponent = 0; exponent < 60; ++exponent) {
