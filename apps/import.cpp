@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/import_options.h"
 #include "apps/mesh_input.h"
 #include "apps/subcommands.h"
 #include "base/errors.h"
@@ -54,10 +55,7 @@ void add_import(CLI::App& program) {
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
       ->required();
   app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
-  app->add_option("--time", arguments->options.time,
-                  "Time step: a time, 'last' (default) or 'index:N'");
-  app->add_option("--raw", arguments->options.raw,
-                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
+  add_import_options(*app, arguments->options);
   app->add_option("--add-field", arguments->new_fields,
                   "NAME=EXPRESSION in x, y, z, radius and point fields, e.g. 'hot=max(0, T - "
                   "400)'; repeatable")

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/import_options.h"
 #include "apps/mesh_input.h"
 #include "apps/subcommands.h"
 #include "mesh/check.h"
@@ -114,10 +115,7 @@ void add_info(CLI::App& program) {
   app->footer("usage: tetraglass info INPUT [--json]");
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
       ->required();
-  app->add_option("--time", arguments->options.time,
-                  "Time step: a time, 'last' (default) or 'index:N'");
-  app->add_option("--raw", arguments->options.raw,
-                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
+  add_import_options(*app, arguments->options);
   app->add_flag("--json", arguments->json, "Print JSON");
   app->callback([arguments] {
     const mesh::Import imported = import_and_tell(arguments->input, arguments->options);

@@ -24,7 +24,7 @@ std::string version_text() {
   parts += "\n  TetGen   AGPL-3.0-or-later (fills closed surfaces)";
 #endif
 #ifdef TETRAGLASS_WITH_CGAL
-  parts += "\n  CGAL     GPL-3.0-or-later (tetrahedra of points; its kernel alone: LGPL)";
+  parts += "\n  CGAL     GPL-3.0-or-later (tetrahedra of points, repair; its kernel alone: LGPL)";
 #endif
 #ifdef TETRAGLASS_WITH_GMSH
   parts += "\n  Gmsh     GPL-2.0-or-later (reads its formats)";

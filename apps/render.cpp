@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "apps/import_options.h"
 #include "apps/mesh_input.h"
 #include "apps/options.h"
 #include "apps/render_arguments.h"
@@ -135,9 +136,7 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--field", a.field,
                   "Point or cell field; NAME:x|y|z|magnitude or NAME:INDEX of one with components. "
                   "Default: the first scalar");
-  app->add_option("--time", a.import.time, "Time step: a time, 'last' (default) or 'index:N'");
-  app->add_option("--raw", a.import.raw,
-                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
+  add_import_options(*app, a.import);
   app->add_option("--mode", a.mode, "full | emission | absorption | mip | iso | thickness")
       ->capture_default_str();
   app->add_option("--mip-of", a.mip_of,

@@ -130,15 +130,28 @@ TetMesh split_solids(const MeshData& data, ImportReport& report) {
   return std::move(split.mesh);
 }
 
-TetMesh make_tetrahedra(const MeshData& data, bool may_be_points, ImportReport& report) {
+/// A surface that cannot be filled is told with what a repair has done to it before.
+TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std::string>& notes) {
+  const MeshData repaired =
+      options.repair ? repair_surface(data, options.largest_hole, notes) : MeshData();
+  try {
+    TetMesh mesh = fill_surface(options.repair ? repaired : data, notes);
+    mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
+    return mesh;
+  } catch (const base::InputError& error) {
+    if (!options.repair) throw base::InputError(std::string(error.what()) + "; try --repair");
+    throw base::InputError(
+        fmt::format("{}; this was after {}", error.what(), fmt::join(notes, "; ")));
+  }
+}
+
+TetMesh make_tetrahedra(const MeshData& data, bool may_be_points, const ImportOptions& options,
+                        ImportReport& report) {
   switch (kind_of(report, may_be_points)) {
     case Kind::solids:
       return split_solids(data, report);
-    case Kind::surface: {
-      TetMesh mesh = fill_surface(data, report.notes);
-      mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
-      return mesh;
-    }
+    case Kind::surface:
+      return fill(data, options, report.notes);
     case Kind::points:
       break;
   }
@@ -165,7 +178,7 @@ Import import_mesh(const std::string& file, const ImportOptions& options) {
     import.report.notes = std::move(data.notes);
     import.report.read_ms = clock.milliseconds();
     clock.restart();
-    import.mesh = make_tetrahedra(data, format.may_be_points, import.report);
+    import.mesh = make_tetrahedra(data, format.may_be_points, options, import.report);
     import.report.decompose_ms = clock.milliseconds();
     return import;
   } catch (const base::InputError& error) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh_data.h"
+#include "mesh/repair_surface.h"
 #include "mesh/tet_mesh.h"
 
 namespace tetraglass::mesh {
@@ -14,6 +15,8 @@ namespace tetraglass::mesh {
 struct ImportOptions {
   std::string time;  ///< "" or "last", a time value, or "index:N"; for files with time steps
   std::string raw;   ///< the layout of a file of bare values, as `read_raw` wants it; "" for others
+  bool repair = false;  ///< mend surfaces before they are filled (repair_surface.h)
+  double largest_hole = kUsualLargestHole;  ///< that a repair closes
 };
 
 /// What the file held and what was done to it.

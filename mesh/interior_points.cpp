@@ -230,7 +230,7 @@ class LatticeFiller {
 }  // namespace
 
 std::vector<Vector3d> interior_points(const TriangleSurface& surface, double volume_of_cell) {
-  if (surface.triangles.empty()) return {};
+  if (surface.triangles.empty() || surface.inner_walls) return {};  // rows do not tell their inside
   return LatticeFiller(surface, volume_of_cell).fill();
 }
 

@@ -30,21 +30,20 @@ class FaultFinder {
   }
 
   SurfaceFaults find() {
+    flat_.resize(surface_.triangles.size(), false);
     for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
       const Triangle& t = surface_.triangles[i];
-      if (CGAL::collinear(points_[t[0]], points_[t[1]], points_[t[2]])) {
-        found(t, faults_.flat);
-      }
+      if (!CGAL::collinear(points_[t[0]], points_[t[1]], points_[t[2]])) continue;
+      flat_[i] = true;  // the tests of pairs are of true triangles
+      ++faults_.flat;
+      if (faults_.first_flat.size() < kFew) faults_.first_flat.push_back(i);
     }
-    if (faults_.flat == 0) sweep();  // the tests of pairs are of true triangles
+    sweep();
     return faults_;
   }
 
  private:
-  void found(const Triangle& t, std::size_t& count) {
-    if (faults_.flat + faults_.crossings == 0) faults_.where = surface_.points[t[0]];
-    ++count;
-  }
+  static constexpr std::size_t kFew = 3;
 
   void sweep() {
     if (boxes_.empty()) return;
@@ -58,8 +57,11 @@ class FaultFinder {
       for (std::size_t b = a + 1; b < order.size(); ++b) {
         const std::size_t j = order[b];
         if (boxes_[j].min()[axis] > boxes_[i].max()[axis]) break;
-        if (boxes_[i].intersects(boxes_[j]) && meet(surface_.triangles[i], surface_.triangles[j])) {
-          found(surface_.triangles[i], faults_.crossings);
+        if (flat_[i] || flat_[j] || !boxes_[i].intersects(boxes_[j])) continue;
+        if (!meet(surface_.triangles[i], surface_.triangles[j])) continue;
+        ++faults_.crossings;
+        if (faults_.first_crossings.size() < kFew) {
+          faults_.first_crossings.emplace_back(std::min(i, j), std::max(i, j));
         }
       }
     }
@@ -108,6 +110,7 @@ class FaultFinder {
   std::vector<Point> points_;
   std::vector<Eigen::AlignedBox3d> boxes_;
   Eigen::AlignedBox3d all_;
+  std::vector<bool> flat_;
   SurfaceFaults faults_;
 };
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <new>
 #include <numbers>
@@ -13,9 +12,11 @@
 
 #include "base/errors.h"
 #include "mesh/interior_points.h"
+#include "mesh/parcel.h"
 #include "mesh/predicates.h"
 #include "mesh/run_apart.h"
 #include "mesh/self_intersection.h"
+#include "mesh/surface_diagnosis.h"
 #include "mesh/tetrahedralize.h"
 #include "mesh/triangle_surface.h"
 
@@ -75,18 +76,8 @@ bool is_solid(const TriangleSurface& surface, const Eigen::Vector3d& p) {
 /// TetGen crashes on some surfaces that intersect themselves, so they do not get that far.
 void check_embedded(const TriangleSurface& surface) {
   const SurfaceFaults faults = find_faults(surface);
-  const auto place = [&] {
-    return fmt::format("({:g}, {:g}, {:g})", faults.where.x(), faults.where.y(), faults.where.z());
-  };
-  if (faults.flat > 0) {
-    throw base::InputError(
-        fmt::format("the surface has {} triangles without area, the first at {}; repair it first",
-                    faults.flat, place()));
-  }
-  if (faults.crossings > 0) {
-    throw base::InputError(fmt::format(
-        "the surface intersects itself: {} pairs of triangles, the first at {}; repair it first",
-        faults.crossings, place()));
+  if (faults.flat + faults.crossings > 0) {
+    throw base::InputError(describe(surface, diagnose(surface)));
   }
 }
 
@@ -96,13 +87,13 @@ void check_embedded(const TriangleSurface& surface) {
     case 1:
       throw std::bad_alloc();
     case 3:
-      throw base::InputError("the surface intersects itself; repair it first");
+      throw base::InputError("the surface intersects itself");
     case 4:
       throw base::InputError(
           "the surface has features smaller than the precision of its "
-          "coordinates; repair it first");
+          "coordinates");
     case 5:
-      throw base::InputError("two faces of the surface overlap or touch; repair it first");
+      throw base::InputError("two faces of the surface overlap or touch");
     default:
       throw base::InputError(fmt::format(
           "the surface could not be filled (TetGen ended with code {}); it may intersect "
@@ -187,28 +178,6 @@ TetMesh solid_part(const TriangleSurface& surface, Filling filling) {
   }
   return mesh;
 }
-
-/// What TetGen has made of a surface, as one block of bytes from its process to this one.
-class Parcel {
- public:
-  explicit Parcel(std::string content = {}) : bytes(std::move(content)) {}
-
-  template <typename T>
-  void put(const T* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
-  }
-  template <typename T>
-  std::vector<T> take(std::size_t count) {
-    std::vector<T> values(count);
-    std::memcpy(values.data(), bytes.data() + at_, count * sizeof(T));
-    at_ += count * sizeof(T);
-    return values;
-  }
-  std::string bytes;
-
- private:
-  std::size_t at_ = 0;
-};
 
 std::string tetgen_parcel(const TriangleSurface& surface, std::span<const Eigen::Vector3d> inside,
                           std::string switches) {
@@ -297,7 +266,7 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes, doub
     mesh = run_tetgen(surface, inside, "p" + quality);
   }
   if (!mesh) {
-    throw base::InputError("the surface could not be filled: TetGen fails on it; repair it first");
+    throw base::InputError("the surface could not be filled: TetGen fails on it");
   }
   if (mesh->cells.empty()) throw base::InputError("the surface encloses no volume");
   notes.push_back(

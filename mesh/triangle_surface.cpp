@@ -12,6 +12,7 @@
 
 #include "base/errors.h"
 #include "mesh/cell_shapes.h"
+#include "mesh/surface_diagnosis.h"
 
 namespace tetraglass::mesh {
 namespace {
@@ -62,6 +63,7 @@ class Collector {
   }
 
   void add_cell(std::size_t cell) {
+    cell_ = cell;
     const CellShape* shape = find_shape(data_.types[cell]);
     if (shape == nullptr || shape->dimension != 2) return;
     std::span<const std::uint32_t> points = data_.cell(cell);
@@ -103,6 +105,7 @@ class Collector {
         ++collapsed_;
       } else {
         surface_.triangles.push_back(t);
+        surface_.cells.push_back(static_cast<std::uint32_t>(cell_));
       }
     }
   }
@@ -118,6 +121,7 @@ class Collector {
       if (!used[i]) continue;
       number[i] = static_cast<std::uint32_t>(surface_.points.size());
       surface_.points.push_back(data_.points[i]);
+      surface_.sources.push_back(i);
     }
     for (Triangle& t : surface_.triangles) {
       for (std::uint32_t& i : t) i = number[i];
@@ -127,39 +131,17 @@ class Collector {
   const MeshData& data_;
   TriangleSurface surface_;
   std::vector<std::uint32_t> first_;
+  std::size_t cell_ = 0;  ///< whose triangles are being made
   std::size_t merged_ = 0;
   std::size_t collapsed_ = 0;
 };
 
-/// The triangles at an edge (smaller point first), and whether each runs from the smaller to the
-/// larger.
-struct EdgeUse {
-  std::size_t triangle;
-  bool forward;
-};
 using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<EdgeUse>>;
 
-Edges find_edges(std::span<const Triangle> triangles) {
-  Edges edges;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = triangles[i][k];
-      const std::uint32_t b = triangles[i][(k + 1) % 3];
-      edges[std::minmax(a, b)].push_back({i, a < b});
-    }
-  }
-  return edges;
-}
-
-void check_closed(const Edges& edges) {
-  const auto open = static_cast<std::size_t>(
-      std::ranges::count_if(edges, [](const auto& edge) { return edge.second.size() % 2 != 0; }));
-  if (open > 0) {
-    throw base::InputError(fmt::format(
-        "the surface is not closed: {} of its {} edges have an odd number of triangles, so it "
-        "encloses no volume that could be filled",
-        open, edges.size()));
-  }
+void check_closed(const TriangleSurface& surface, const Edges& edges) {
+  const bool open =
+      std::ranges::any_of(edges, [](const auto& edge) { return edge.second.size() == 1; });
+  if (open) throw base::InputError(describe(surface, diagnose(surface)));
 }
 
 /// Finds the shells and turns triangles so that neighbours agree.
@@ -202,10 +184,28 @@ void orient(TriangleSurface& surface, const Edges& edges) {
 
 }  // namespace
 
+Edges find_edges(std::span<const Triangle> triangles) {
+  Edges edges;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[i][k];
+      const std::uint32_t b = triangles[i][(k + 1) % 3];
+      edges[std::minmax(a, b)].push_back({i, a < b});
+    }
+  }
+  return edges;
+}
+
+TriangleSurface collect_triangles(const MeshData& data, std::vector<std::string>& notes) {
+  return Collector(data).collect(notes);
+}
+
 TriangleSurface triangle_surface(const MeshData& data, std::vector<std::string>& notes) {
-  TriangleSurface surface = Collector(data).collect(notes);
+  TriangleSurface surface = collect_triangles(data, notes);
   const Edges edges = find_edges(surface.triangles);
-  check_closed(edges);
+  check_closed(surface, edges);
+  surface.inner_walls =
+      std::ranges::any_of(edges, [](const auto& edge) { return edge.second.size() % 2 != 0; });
   orient(surface, edges);
   if (surface.turned > 0) {
     notes.push_back(fmt::format("{} of {} triangles ran the other way round than their neighbours",

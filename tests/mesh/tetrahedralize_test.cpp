@@ -24,23 +24,7 @@ using Eigen::Vector3d;
   return sum;
 }
 
-/// Adds the six squares of a cube, turned outwards or inwards.
-void add_cube(MeshData& data, const Vector3d& low, double side, bool outwards = true) {
-  const auto first = static_cast<std::uint32_t>(data.points.size());
-  for (int i = 0; i < 8; ++i) {
-    data.points.emplace_back(low + side * Vector3d(i % 2, i / 2 % 2, i / 4));
-  }
-  for (std::array<std::uint32_t, 4> face : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
-                                            {4, 5, 7, 6},
-                                            {0, 1, 5, 4},
-                                            {2, 6, 7, 3},
-                                            {0, 4, 6, 2},
-                                            {1, 3, 7, 5}}) {
-    if (!outwards) std::swap(face[1], face[3]);
-    for (std::uint32_t& i : face) i += first;
-    data.add_cell(CellType::quad, face);
-  }
-}
+using tests::add_cube;
 
 [[maybe_unused]] std::string refusal(const MeshData& data) {
   std::vector<std::string> notes;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "mesh/mesh_data.h"
 #include "mesh/tet_mesh.h"
 
 /// Small meshes with known fields, shared by the tests of several rooms.
@@ -70,6 +71,25 @@ inline mesh::TetMesh box(const Eigen::Vector3d& low, const Eigen::Vector3d& high
 inline double volume(const mesh::TetMesh& mesh, const mesh::Cell& c) {
   const Eigen::Vector3d& a = mesh.points[c[0]];
   return (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).dot(mesh.points[c[3]] - a) / 6;
+}
+
+/// Adds the six squares of a cube, turned outwards or inwards.
+inline void add_cube(mesh::MeshData& data, const Eigen::Vector3d& low, double side,
+                     bool outwards = true) {
+  const auto first = static_cast<std::uint32_t>(data.points.size());
+  for (int i = 0; i < 8; ++i) {
+    data.points.emplace_back(low + side * Eigen::Vector3d(i % 2, i / 2 % 2, i / 4));
+  }
+  for (std::array<std::uint32_t, 4> face : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                                            {4, 5, 7, 6},
+                                            {0, 1, 5, 4},
+                                            {2, 6, 7, 3},
+                                            {0, 4, 6, 2},
+                                            {1, 3, 7, 5}}) {
+    if (!outwards) std::swap(face[1], face[3]);
+    for (std::uint32_t& i : face) i += first;
+    data.add_cell(mesh::CellType::quad, face);
+  }
 }
 
 }  // namespace tetraglass::tests
