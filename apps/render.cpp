@@ -179,7 +179,7 @@ void add_camera_options(CLI::App* app, RenderArguments& a) {
 }
 
 void add_method_options(CLI::App* app, RenderArguments& a) {
-  app->add_option("--projector", a.projector, "auto | gl | reference (exact and slow)")
+  app->add_option("--projector", a.projector, "auto | cpu | gl | reference (exact and slow)")
       ->capture_default_str();
   app->add_option("--context", a.context, "auto | osmesa, for --projector gl")
       ->capture_default_str();

@@ -228,9 +228,11 @@ project::Request make_request(const RenderArguments& arguments) {
   using project::Projector;
   using project::SortMethod;
   project::Request request;
-  request.projector = parse_choice<std::optional<Projector>>(
-      arguments.projector, "--projector",
-      {{"auto", std::nullopt}, {"gl", Projector::gl}, {"reference", Projector::reference}});
+  request.projector = parse_choice<std::optional<Projector>>(arguments.projector, "--projector",
+                                                             {{"auto", std::nullopt},
+                                                              {"cpu", Projector::cpu},
+                                                              {"gl", Projector::gl},
+                                                              {"reference", Projector::reference}});
   request.context = parse_choice<std::optional<ContextKind>>(
       arguments.context, "--context", {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}});
   request.sort = parse_choice<std::optional<SortMethod>>(arguments.sort, "--sort",

@@ -91,15 +91,31 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
                              : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
 }
 
+void plan_projector(const Scene& scene, Plan& plan) {
+  switch (plan.projector) {
+    case Projector::gl:
+      plan.reasons.emplace_back("projector: gl, cell projection in float");
+      return;
+    case Projector::reference:
+      plan.reasons.emplace_back(
+          "projector: reference, double precision, one ray at a time: slow, judges the others");
+      return;
+    case Projector::cpu:
+      if (scene.mode != Mode::thickness) {
+        throw base::UsageError("--projector cpu has no mode " + to_string(scene.mode) +
+                               " yet; use --projector gl");
+      }
+      plan.reasons.emplace_back("projector: cpu, tiles and vectors, all threads, no GL");
+      return;
+  }
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene, const Request& request) {
   Plan plan;
   plan.projector = request.projector.value_or(Projector::gl);
-  plan.reasons.push_back(
-      plan.projector == Projector::gl
-          ? "projector: gl, cell projection in float"
-          : "projector: reference, double precision, one ray at a time: slow, judges the others");
+  plan_projector(scene, plan);
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);
     plan.reasons.push_back("context: " + to_string(plan.context) + ", needs no display and no GPU");
@@ -123,7 +139,15 @@ Plan plan(const Scene& scene, const Request& request) {
 }
 
 std::string to_string(Projector projector) {
-  return projector == Projector::gl ? "gl" : "reference";
+  switch (projector) {
+    case Projector::reference:
+      return "reference";
+    case Projector::gl:
+      return "gl";
+    case Projector::cpu:
+      return "cpu";
+  }
+  return "";
 }
 
 std::string to_string(SortMethod sort) {

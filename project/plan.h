@@ -9,7 +9,7 @@
 
 namespace tetraglass::project {
 
-enum class Projector { reference, gl };
+enum class Projector { reference, gl, cpu };
 enum class SortMethod { none, centroid, fragments };
 enum class Integrator { exact, table2d, table3d };
 enum class ContextKind { none, osmesa };

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "project/camera.h"
+#include "project/cpu/drawn_cells.h"
+#include "project/cpu/tile_bins.h"
+#include "project/cpu/view_points.h"
+#include "project/image.h"
+#include "project/plan.h"
+#include "project/stats.h"
+
+namespace tetraglass::project::cpu {
+
+/// Draws one scene from any number of views without GL: cells are binned to tiles of pixels, tiles
+/// are drawn at once by all threads, blocks of pixels at once by vectors. What does not depend on
+/// the view is set up once and kept. The picture does not depend on the number of threads.
+///
+/// A ray meets a cell from the last of its front faces to the first of its back faces; a face is a
+/// plane over the picture, set up in double precision from its three vertices alone, in ascending
+/// order: both cells at it get the same numbers, and the segments of a ray join without gap or
+/// overlap whatever the rounding.
+class CellProjector {
+ public:
+  /// The scene (and its mesh) outlives this.
+  CellProjector(const Scene& scene, const Plan& plan);
+
+  /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
+  /// and size do not matter. Throws UsageError for a plan that this projector lacks.
+  [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
+
+ private:
+  const Scene& scene_;
+  Plan plan_;
+  DrawnCells cells_;
+  double radius_ = 1;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  ViewPoints points_;
+  TileBins bins_;
+};
+
+}  // namespace tetraglass::project::cpu

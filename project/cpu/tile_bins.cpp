@@ -1,0 +1,136 @@
+#include "project/cpu/tile_bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace tetraglass::project::cpu {
+namespace {
+
+// Screen positions are floats: at the right edge of the widest picture (65,536 pixels) they are
+// rounded by at most 2^-8 of a pixel.
+constexpr float kMargin = 1.0F / 128;
+
+int to_pixel(float position, int limit) {
+  return static_cast<int>(std::clamp(position, -1.0F, static_cast<float>(limit)));
+}
+
+/// An edge from a, in front of the eye, to b, behind it, is seen from a to infinity: towards which
+/// sides. The part in front is that of the points a + t (b - a) with z > 0.
+void extend_to_infinity(double a, double a_z, double b, double b_z, float& low, float& high) {
+  const double at_eye_plane = a * b_z - b * a_z;  // times -1 / (a_z - b_z), negative
+  const double uncertainty =
+      4 * std::numeric_limits<double>::epsilon() * (std::abs(a * b_z) + std::abs(b * a_z));
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  if (-at_eye_plane >= -uncertainty) high = kInfinity;
+  if (-at_eye_plane <= uncertainty) low = -kInfinity;
+}
+
+}  // namespace
+
+PixelBounds pixel_bounds(const mesh::Cell& cell, const ViewPoints& points, int width, int height) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
+  int in_front = 0;
+  for (const std::uint32_t v : cell) {
+    const ScreenPoint& p = points.screen[v];
+    if (p.in_front == 0) continue;
+    ++in_front;
+    low_x = std::min(low_x, p.x);
+    high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y);
+    high_y = std::max(high_y, p.y);
+  }
+  if (in_front == 0) return {};
+  if (in_front < 4) {
+    for (const std::uint32_t front : cell) {
+      if (points.screen[front].in_front == 0) continue;
+      for (const std::uint32_t back : cell) {
+        if (points.screen[back].in_front != 0) continue;
+        const ViewPoint& a = points.exact[front];
+        const ViewPoint& b = points.exact[back];
+        extend_to_infinity(a.x, a.z, b.x, b.z, low_x, high_x);
+        extend_to_infinity(a.y, a.z, b.y, b.z, low_y, high_y);
+      }
+    }
+  }
+  return {std::max(0, to_pixel(std::ceil(low_x - kMargin), width)),
+          std::max(0, to_pixel(std::ceil(low_y - kMargin), height)),
+          std::min(width - 1, to_pixel(std::floor(high_x + kMargin), width)),
+          std::min(height - 1, to_pixel(std::floor(high_y + kMargin), height))};
+}
+
+void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int width, int height,
+                      int tile_size) {
+  tiles_x_ = static_cast<std::size_t>((width + tile_size - 1) / tile_size);
+  tiles_y_ = static_cast<std::size_t>((height + tile_size - 1) / tile_size);
+  ranges_.resize(cells.size());
+  // Chunks of a fixed size, not one per thread: the order of the entries must not depend on
+  // threads. Not too many either: each has a count per tile.
+  constexpr std::size_t kMostCounts = std::size_t{1} << 22;
+  const std::size_t most = std::clamp<std::size_t>(kMostCounts / tiles(), 1, 64);
+  const std::size_t chunks = std::clamp<std::size_t>(cells.size() / 4096, 1, most);
+  const auto chunk_begin = [&](std::size_t chunk) { return cells.size() * chunk / chunks; };
+  counts_.assign(chunks * tiles(), 0);
+  base::parallel_ranges(chunks, 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t chunk = first; chunk < end; ++chunk) {
+      std::uint32_t* counts = counts_.data() + chunk * tiles();
+      for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
+        const PixelBounds bounds = pixel_bounds(cells.vertices[i], points, width, height);
+        TileRange& range = ranges_[i];
+        range = {};
+        if (bounds.empty()) continue;
+        range = {static_cast<std::uint16_t>(bounds.first_x / tile_size),
+                 static_cast<std::uint16_t>(bounds.first_y / tile_size),
+                 static_cast<std::uint16_t>(bounds.last_x / tile_size),
+                 static_cast<std::uint16_t>(bounds.last_y / tile_size)};
+        for (std::size_t y = range.first_y; y <= range.last_y; ++y) {
+          for (std::size_t x = range.first_x; x <= range.last_x; ++x) ++counts[y * tiles_x_ + x];
+        }
+      }
+    }
+  });
+  starts_.resize(tiles() + 1);
+  std::size_t total = 0;
+  for (std::size_t tile = 0; tile < tiles(); ++tile) {
+    starts_[tile] = total;
+    std::uint32_t before = 0;  // of this tile, in the chunks before
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      std::uint32_t& count = counts_[chunk * tiles() + tile];
+      before += std::exchange(count, before);
+    }
+    total += before;
+  }
+  starts_[tiles()] = total;
+  entries_.resize(total);
+  base::parallel_ranges(chunks, 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t chunk = first; chunk < end; ++chunk) {
+      std::uint32_t* counts = counts_.data() + chunk * tiles();
+      for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
+        const TileRange& range = ranges_[i];
+        for (std::size_t y = range.first_y; y <= range.last_y; ++y) {
+          for (std::size_t x = range.first_x; x <= range.last_x; ++x) {
+            const std::size_t tile = y * tiles_x_ + x;
+            entries_[starts_[tile] + counts[tile]++] = static_cast<std::uint32_t>(i);
+          }
+        }
+      }
+    }
+  });
+}
+
+std::vector<std::uint32_t> TileBins::largest_first() const {
+  std::vector<std::uint32_t> order;
+  for (std::size_t tile = 0; tile < tiles(); ++tile) {
+    if (!cells(tile).empty()) order.push_back(static_cast<std::uint32_t>(tile));
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return cells(a).size() > cells(b).size();
+  });
+  return order;
+}
+
+}  // namespace tetraglass::project::cpu

@@ -1,0 +1,350 @@
+// Walks over the blocks of pixels that cells cover, and finds the segment of every ray in every
+// cell. Compiled for each instruction set: included only by tile_kernel.cpp, after highway.h.
+
+#if defined(TETRAGLASS_PROJECT_CPU_TILE_RASTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRAGLASS_PROJECT_CPU_TILE_RASTER_INL_H_
+#undef TETRAGLASS_PROJECT_CPU_TILE_RASTER_INL_H_
+#else
+#define TETRAGLASS_PROJECT_CPU_TILE_RASTER_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <hwy/highway.h>
+
+#include "project/cpu/face_planes-inl.h"
+#include "project/cpu/tile_bins.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tetraglass::project::cpu::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A vector holds a block of pixels, row by row: 4 x 4 where it has 16 lanes.
+using FloatTag = hn::CappedTag<float, 16>;
+using Float = hn::Vec<FloatTag>;
+using Lanes = hn::Mask<FloatTag>;
+inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+inline constexpr int kBlockWidth = kLanes < 4 ? 1 : 4;
+inline constexpr int kBlockHeight = static_cast<int>(kLanes) / kBlockWidth;
+inline constexpr int kBlocksX = kTileSize / kBlockWidth;
+inline constexpr int kBlocksY = kTileSize / kBlockHeight;
+inline constexpr std::size_t kTilePixels = std::size_t{kTileSize} * kTileSize;
+
+HWY_INLINE Float set(float value) {
+  return hn::Set(FloatTag(), value);
+}
+
+/// To about 2^-23.
+HWY_INLINE Float reciprocal(Float x) {
+  const Float guess = hn::ApproximateReciprocal(x);
+  return hn::Mul(guess, hn::NegMulAdd(x, guess, set(2.0F)));
+}
+
+/// The segments of a block's rays in one cell.
+struct BlockSegments {
+  Float entry;  ///< depth (see FaceBatch)
+  Float exit;
+  Float front;  ///< scaled values, without meaning where the shader has no use for them
+  Float back;
+  Float length;  ///< in units of the projection's radius
+};
+
+/// The horizontal or vertical pixel offset of each lane in its block.
+HWY_INLINE Float lane_offsets(bool vertical) {
+  alignas(64) std::array<float, kLanes> offset{};
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const int lane = static_cast<int>(i);
+    offset[i] = static_cast<float>(vertical ? lane / kBlockWidth : lane % kBlockWidth);
+  }
+  return hn::Load(FloatTag(), offset.data());
+}
+
+/// The length of a ray between two depths, in units of the projection's radius, divided by the
+/// product of depth difference and both z / m; [pixel of block by block]. Perspective only.
+HWY_INLINE void fill_stretch(const Projection& projection, int tile_x, int tile_y, float* stretch) {
+  const auto inverse = static_cast<float>(1 / projection.focal);
+  const Float unit = set(static_cast<float>(projection.middle_depth));
+  const Float dx = lane_offsets(false);
+  const Float dy = lane_offsets(true);
+  for (int y = 0; y < kBlocksY; ++y) {
+    const auto top = static_cast<float>(tile_y + y * kBlockHeight - projection.center_y);
+    const Float v = hn::Mul(hn::Add(set(top), dy), set(inverse));
+    const Float rest = hn::MulAdd(v, v, set(1.0F));
+    for (int x = 0; x < kBlocksX; ++x) {
+      const auto left = static_cast<float>(tile_x + x * kBlockWidth - projection.center_x);
+      const Float u = hn::Mul(hn::Add(set(left), dx), set(inverse));
+      hn::Store(hn::Mul(unit, hn::Sqrt(hn::MulAdd(u, u, rest))), FloatTag(), stretch);
+      stretch += kLanes;
+    }
+  }
+}
+
+/// The faces of a cell, front faces first, by the bits of the front faces.
+inline constexpr auto kFrontToBack = [] {
+  std::array<std::array<std::uint8_t, 4>, 16> orders{};
+  for (unsigned front = 0; front < 16; ++front) {
+    std::size_t next = 0;
+    for (unsigned side = 2; side-- > 0;) {
+      for (std::uint8_t k = 0; k < 4; ++k) {
+        if ((front >> k & 1U) == side) orders[front][next++] = k;
+      }
+    }
+  }
+  return orders;
+}();
+
+/// Feeds a shader with the segments of a tile. A shader has
+///   static constexpr bool kValues;        whether it reads front and back
+///   bool begin(std::uint32_t cell);       false: the cell shows nothing
+///   void add(std::size_t block, Lanes covered, const BlockSegments&);
+template <bool kPerspective, class Shader>
+class TileRaster {
+ public:
+  /// `stretch`: from fill_stretch (perspective only).
+  TileRaster(const Picture& picture, int tile_x, int tile_y, const float* stretch, Shader& shader)
+      : picture_(picture),
+        shader_(shader),
+        tile_x_(tile_x),
+        tile_y_(tile_y),
+        stretch_(stretch),
+        in_block_x_(lane_offsets(false)),
+        in_block_y_(lane_offsets(true)) {}
+
+  /// Returns the number of segments.
+  std::uint64_t draw(std::span<const std::uint32_t> cells) {
+    const Projection& projection = *picture_.projection;
+    const TileOrigin origin = {projection.center_x - (tile_x_ + kTileSize / 2),
+                               projection.center_y - (tile_y_ + kTileSize / 2)};
+    std::array<std::uint32_t, kBatch> numbers;
+    for (std::size_t first = 0; first < cells.size(); first += kBatch) {
+      const std::size_t count = std::min(kBatch, cells.size() - first);
+      for (std::size_t i = 0; i < kBatch; ++i) numbers[i] = cells[first + std::min(i, count - 1)];
+      FaceSetup<kPerspective, Shader::kValues>::set_up(picture_, origin, numbers.data(), batch_);
+      for (std::size_t i = 0; i < count; ++i) draw_cell(numbers[i], i);
+    }
+    return segments_;
+  }
+
+ private:
+  /// A plane of one cell, in all lanes.
+  struct Plane {
+    Float start, dx, dy;
+  };
+
+  /// The same in double, evaluated once per block: what a steep plane needs. It is the face that is
+  /// steep, so that both cells at it do the same.
+  struct ExactPlane {
+    double start = 0;
+    double dx = 0;
+    double dy = 0;
+    bool steep = false;
+  };
+
+  template <std::size_t kFaces>
+  struct CellPlanes {
+    std::array<Plane, kFaces> depth;
+    std::array<Plane, kFaces> value;
+    std::array<ExactPlane, kFaces> exact_depth;
+    std::array<ExactPlane, kFaces> exact_value;
+  };
+
+  static HWY_INLINE Plane plane(const Planes& planes, std::size_t face, std::size_t i) {
+    return {set(static_cast<float>(planes.start[face][i])),
+            set(static_cast<float>(planes.dx[face][i])),
+            set(static_cast<float>(planes.dy[face][i]))};
+  }
+
+  template <std::size_t kFaces>
+  HWY_INLINE void load_planes(std::size_t face, std::size_t i, std::size_t k,
+                              CellPlanes<kFaces>& planes) const {
+    planes.depth[k] = plane(batch_.depth, face, i);
+    if constexpr (Shader::kValues) planes.value[k] = plane(batch_.value, face, i);
+  }
+
+  template <std::size_t kFaces>
+  HWY_INLINE void load_exact_planes(std::size_t face, std::size_t i, std::size_t k,
+                                    CellPlanes<kFaces>& planes) const {
+    const bool steep = (batch_.steep[i] >> face & 1U) != 0;
+    const auto load = [&](const Planes& from) {
+      return ExactPlane{from.start[face][i], from.dx[face][i], from.dy[face][i], steep};
+    };
+    planes.exact_depth[k] = load(batch_.depth);
+    if constexpr (Shader::kValues) planes.exact_value[k] = load(batch_.value);
+  }
+
+  /// The plane at the pixels of the block whose first pixel lies at (x, y) from the tile's middle.
+  HWY_INLINE Float at_block(const ExactPlane& p, const Plane& rounded, int x, int y) const {
+    const double first = p.start + p.dx * x + p.dy * y;
+    return hn::MulAdd(rounded.dx, in_block_x_,
+                      hn::MulAdd(rounded.dy, in_block_y_, set(static_cast<float>(first))));
+  }
+
+  HWY_INLINE void draw_cell(std::uint32_t cell, std::size_t i) {
+    const unsigned front = batch_.front[i];
+    // All faces in front: the eye is on one of them, and the cell behind it.
+    if (front == 15) return;
+    const mesh::Cell& vertices = picture_.cells->vertices[cell];
+    if (!shader_.begin(cell)) return;
+    const PixelBounds bounds =
+        pixel_bounds(vertices, *picture_.points, picture_.image->width, picture_.image->height);
+    first_x_ = std::max(bounds.first_x - tile_x_, 0) / kBlockWidth;
+    first_y_ = std::max(bounds.first_y - tile_y_, 0) / kBlockHeight;
+    last_x_ = std::min(bounds.last_x - tile_x_, kTileSize - 1) / kBlockWidth;
+    last_y_ = std::min(bounds.last_y - tile_y_, kTileSize - 1) / kBlockHeight;
+    if constexpr (Shader::kValues) set_value_range(vertices);
+    if (kPerspective && front == 0) {
+      draw_around_eye(vertices, i);
+      return;
+    }
+    const std::array<std::uint8_t, 4>& face = kFrontToBack[front];
+    CellPlanes<4> planes;
+    for (std::size_t k = 0; k < 4; ++k) load_planes(face[k], i, k, planes);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const float second = (front >> face[1] & 1U) != 0 ? kInfinity : -kInfinity;
+    const float third = (front >> face[2] & 1U) != 0 ? kInfinity : -kInfinity;
+    if (batch_.steep[i] == 0) {
+      draw_blocks<4, false>(planes, second, third);
+    } else {
+      for (std::size_t k = 0; k < 4; ++k) load_exact_planes(face[k], i, k, planes);
+      draw_blocks<4, true>(planes, second, third);
+    }
+  }
+
+  /// The eye is inside the cell: all faces are back faces, and the rays start at the eye, that is
+  /// at z / m of 2^-30.
+  HWY_NOINLINE void draw_around_eye(const mesh::Cell& vertices, std::size_t i) {
+    constexpr float kNearest = 0x1p30F;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    CellPlanes<5> planes;
+    const Float zero = set(0);
+    planes.depth[0] = {set(-kNearest), zero, zero};
+    const auto at_eye = static_cast<float>(value_at_eye(vertices, *picture_.points));
+    planes.value[0] = {set((1 + kNearest) * at_eye), zero, zero};
+    for (std::size_t k = 0; k < 4; ++k) {
+      load_planes(k, i, k + 1, planes);
+      load_exact_planes(k, i, k + 1, planes);
+    }
+    draw_blocks<5, true>(planes, -kInfinity, -kInfinity);
+  }
+
+  HWY_INLINE void set_value_range(const mesh::Cell& vertices) {
+    const std::vector<ViewPoint>& points = picture_.points->exact;
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (const std::uint32_t v : vertices) {
+      low = std::min(low, static_cast<float>(points[v].value));
+      high = std::max(high, static_cast<float>(points[v].value));
+    }
+    low_ = set(low);
+    high_ = set(high);
+  }
+
+  /// Planes in the order of kFrontToBack; `second` and `third` are +infinity where these faces are
+  /// front faces, -infinity where they are back faces; what comes after them are back faces.
+  template <std::size_t kFaces, bool kAnySteep>
+  HWY_INLINE void draw_blocks(const CellPlanes<kFaces>& planes, float second, float third) {
+    const Float side1 = set(second);
+    const Float side2 = set(third);
+    for (int by = first_y_; by <= last_y_; ++by) {
+      const int top = by * kBlockHeight - kTileSize / 2;
+      const Float y = hn::Add(in_block_y_, set(static_cast<float>(top)));
+      std::array<Float, kFaces> row;
+      for (std::size_t k = 0; k < kFaces; ++k) {
+        row[k] = hn::MulAdd(planes.depth[k].dy, y, planes.depth[k].start);
+      }
+      for (int bx = first_x_; bx <= last_x_; ++bx) {
+        const int left = bx * kBlockWidth - kTileSize / 2;
+        const Float x = hn::Add(in_block_x_, set(static_cast<float>(left)));
+        std::array<Float, kFaces> p;
+        for (std::size_t k = 0; k < kFaces; ++k) {
+          p[k] = hn::MulAdd(planes.depth[k].dx, x, row[k]);
+          if constexpr (kAnySteep) {
+            if (planes.exact_depth[k].steep)
+              p[k] = at_block(planes.exact_depth[k], planes.depth[k], left, top);
+          }
+        }
+        // A second or third face counts on one side only: on the other, infinity stands for it.
+        const Float entry1 = hn::Min(p[1], side1);
+        const Float entry2 = hn::Min(p[2], side2);
+        const Float exit1 = hn::Max(p[1], side1);
+        const Float exit2 = hn::Max(p[2], side2);
+        BlockSegments s;
+        s.entry = hn::Max(p[0], hn::Max(entry1, entry2));
+        s.exit = hn::Min(p[3], hn::Min(exit1, exit2));
+        if constexpr (kFaces == 5) s.exit = hn::Min(s.exit, p[4]);
+        Lanes covered = hn::Lt(s.entry, s.exit);
+        // What lies behind the eye has 1 - m / z > 1.
+        if constexpr (kPerspective) covered = hn::And(covered, hn::Lt(s.exit, set(1)));
+        if (hn::AllFalse(FloatTag(), covered)) continue;
+        if constexpr (Shader::kValues) {
+          std::array<Float, kFaces> v;
+          for (std::size_t k = 0; k < kFaces; ++k) {
+            const Plane& value = planes.value[k];
+            v[k] = hn::MulAdd(value.dx, x, hn::MulAdd(value.dy, y, value.start));
+            if constexpr (kAnySteep) {
+              if (planes.exact_value[k].steep)
+                v[k] = at_block(planes.exact_value[k], value, left, top);
+            }
+          }
+          s.front = hn::IfThenElse(hn::Eq(s.entry, entry1), v[1], v[0]);
+          s.front = hn::IfThenElse(hn::Eq(s.entry, entry2), v[2], s.front);
+          s.back = hn::IfThenElse(hn::Eq(s.exit, exit1), v[1], v[3]);
+          s.back = hn::IfThenElse(hn::Eq(s.exit, exit2), v[2], s.back);
+          if constexpr (kFaces == 5) s.back = hn::IfThenElse(hn::Eq(s.exit, p[4]), v[4], s.back);
+        }
+        const auto block = static_cast<std::size_t>(by * kBlocksX + bx);
+        finish(block, s);
+        segments_ += hn::CountTrue(FloatTag(), covered);
+        shader_.add(block, covered, s);
+      }
+    }
+  }
+
+  /// Lengths, and in perspective values, from what is linear over the picture.
+  HWY_INLINE void finish(std::size_t block, BlockSegments& s) const {
+    const Float depth = hn::Sub(s.exit, s.entry);
+    if constexpr (kPerspective) {
+      const Float near = reciprocal(hn::Sub(set(1), s.entry));  // z / m
+      const Float far = reciprocal(hn::Sub(set(1), s.exit));
+      const Float stretch = hn::Load(FloatTag(), stretch_ + block * kLanes);
+      s.length = hn::Mul(hn::Mul(depth, stretch), hn::Mul(near, far));
+      if constexpr (Shader::kValues) {
+        s.front = hn::Mul(s.front, near);
+        s.back = hn::Mul(s.back, far);
+      }
+    } else {
+      s.length = depth;
+    }
+    if constexpr (Shader::kValues) {  // rounding of steep faces
+      s.front = hn::Min(hn::Max(s.front, low_), high_);
+      s.back = hn::Min(hn::Max(s.back, low_), high_);
+    }
+  }
+
+  const Picture& picture_;
+  Shader& shader_;
+  int tile_x_;
+  int tile_y_;
+  const float* stretch_;
+  Float in_block_x_;
+  Float in_block_y_;
+  FaceBatch batch_;
+  // Of the cell in work: its blocks and the range of its values.
+  int first_x_ = 0;
+  int first_y_ = 0;
+  int last_x_ = -1;
+  int last_y_ = -1;
+  Float low_ = set(0);
+  Float high_ = set(0);
+  std::uint64_t segments_ = 0;
+};
+
+}  // namespace tetraglass::project::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

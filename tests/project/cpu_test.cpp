@@ -1,0 +1,228 @@
+// The native projector against the reference and against what is known in closed form.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "mesh/samples.h"
+#include "project/compare.h"
+#include "project/cpu/cell_projector.h"
+#include "project/cpu/cpu_projector.h"
+#include "project/reference/reference.h"
+#include "tests/support/chord.h"
+#include "tests/support/meshes.h"
+#include "tests/support/scenes.h"
+
+namespace tetraglass::project {
+namespace {
+
+using tests::box;
+using tests::chord;
+using tests::constant_medium;
+using tests::make_scene;
+
+const Eigen::AlignedBox3d kBox(Eigen::Vector3d(-1, -0.5, -2), Eigen::Vector3d(1, 0.75, 2));
+
+double zero(const Eigen::Vector3d&) {
+  return 0;
+}
+
+Image draw(const Scene& scene, Stats* stats = nullptr) {
+  Request request;
+  request.projector = Projector::cpu;
+  Stats own;
+  return render_cpu(scene, plan(scene, request), stats != nullptr ? *stats : own);
+}
+
+Image draw_reference(const Scene& scene) {
+  Stats stats;
+  return render_reference(scene, stats);
+}
+
+/// Looks along -z, parallel, `height` world units high: x is right, y is up.
+Camera down_z(double height, const Eigen::Vector2d& at = Eigen::Vector2d::Zero()) {
+  Camera camera;
+  camera.eye = {at.x(), at.y(), 10};
+  camera.target = {at.x(), at.y(), 0};
+  camera.parallel = true;
+  camera.ortho_height = height;
+  return camera;
+}
+
+struct View {
+  std::string name;
+  Camera camera;
+};
+
+std::vector<View> views(const mesh::Box& bounds) {
+  const Camera outside = frame_camera(bounds, {1, 0.8, 0.6}, Eigen::Vector3d::UnitZ(), 30, 1);
+  Camera parallel = outside;
+  parallel.parallel = true;
+  Camera inside = outside;
+  inside.eye = bounds.center() + Eigen::Vector3d(0.07, 0.1, 0.13).cwiseProduct(bounds.sizes());
+  inside.fov_degrees = 120;
+  Camera far = outside;
+  far.eye *= 1000;
+  far.fov_degrees /= 1000;
+  Camera along_z = frame_camera(bounds, {0, 0, 1}, Eigen::Vector3d::UnitY(), 30, 1);
+  along_z.parallel = true;
+  return {{"outside", outside},
+          {"eye inside", inside},
+          {"parallel", parallel},
+          {"far away", far},
+          {"along z", along_z}};
+}
+
+// Floats hold a depth in units of the mesh's half diagonal to 2^-24; only the first and the last of
+// a ray's faces count.
+constexpr double kLength = 3e-6;
+
+TEST(Cpu, ThicknessIsTheChord) {
+  const mesh::TetMesh mesh = box(kBox.min(), kBox.max(), 3, 3, 3, zero);
+  std::vector<View> all = views(kBox);
+  Camera on_vertex = all[1].camera;
+  on_vertex.eye = {-1.0 / 3, -0.5 + 1.25 / 3, -2.0 / 3};
+  all.push_back({"eye on a vertex", on_vertex});
+  for (const View& view : all) {
+    Scene scene = make_scene(mesh, Mode::thickness, constant_medium({1, 1, 1}, 1), 100);
+    scene.camera = view.camera;
+    const Frame frame(scene.camera, 100, 100);
+    const Image image = draw(scene);
+    for (int y = 0; y < 100; ++y) {
+      for (int x = 0; x < 100; ++x) {
+        const double expected = chord(kBox, frame, x, y);
+        const double tolerance = kLength * kBox.diagonal().norm();
+        EXPECT_NEAR(image.pixel(x, y)[0], expected, tolerance) << view.name << ' ' << x << ' ' << y;
+        EXPECT_EQ(image.pixel(x, y)[3], image.pixel(x, y)[0] > 0 ? 1 : 0) << view.name;
+      }
+    }
+  }
+}
+
+TEST(Cpu, RaysThroughEdgesMeetEachCellOnce) {
+  // Pixel centres at the quarters of the bricks, on their diagonals; half a brick to the side on
+  // their edges.
+  const mesh::TetMesh mesh = box({0, 0, 0}, {8, 8, 8}, 8, 8, 8, zero);
+  Scene scene = make_scene(mesh, Mode::thickness, constant_medium({1, 1, 1}, 1), 16);
+  for (const double shift : {0.0, 0.25, 0.5}) {
+    scene.camera = down_z(8, {4 + shift, 4 + shift});
+    const Frame frame(scene.camera, 16, 16);
+    const Image image = draw(scene);
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x) {
+        const Eigen::Vector2d at = frame.image_plane(x, y).array() + 4 + shift;
+        const bool inside = (at.array() >= 0).all() && (at.array() < 8).all();
+        EXPECT_NEAR(image.pixel(x, y)[0], inside ? 8 : 0, 1e-5) << x << ' ' << y << ' ' << shift;
+      }
+    }
+  }
+}
+
+TEST(Cpu, MapCoordinatesLoseNothing) {
+  // As in a national grid: some 5e6 metres from the origin, a part of 10 metres.
+  const Eigen::Vector3d offset(3.5e6, 5.6e6, 200);
+  const mesh::TetMesh near = box(kBox.min(), kBox.max(), 3, 3, 3, zero);
+  mesh::TetMesh far = near;
+  for (Eigen::Vector3d& point : far.points) point += offset;
+  Scene scene = make_scene(near, Mode::thickness, constant_medium({1, 1, 1}, 1), 64);
+  const Image expected = draw(scene);
+  Scene moved = make_scene(far, Mode::thickness, constant_medium({1, 1, 1}, 1), 64);
+  moved.camera = scene.camera;
+  moved.camera.eye += offset;
+  moved.camera.target += offset;
+  EXPECT_LE(compare(draw(moved), expected).max, 2e-6 * kBox.diagonal().norm());
+}
+
+struct Case {
+  std::string name;
+  Mode mode;
+  double max_bound;  // per channel; thickness: relative to the diagonal
+  double rms_bound;
+};
+
+const std::vector<Case> kCases = {
+    {"thickness", Mode::thickness, 1e-5, 1e-6},
+};
+
+class CpuAgreement : public testing::TestWithParam<std::string> {};
+
+TEST_P(CpuAgreement, WithTheReference) {
+  const mesh::TetMesh mesh = mesh::make_sample(GetParam(), GetParam() == "cycle" ? 0 : 20000);
+  const mesh::Box bounds = mesh::bounds(mesh);
+  const double diagonal = bounds.diagonal().norm();
+  const mesh::ScalarField field = mesh::select_scalar(mesh, "");
+  const auto tf = preint::preset("viridis", field.min, field.max, diagonal);
+  for (const Case& what : kCases) {
+    for (const View& view : views(bounds)) {
+      Scene scene = make_scene(mesh, what.mode, tf, 72);  // two tiles each way
+      scene.camera = view.camera;
+      Image image = draw(scene);
+      Image reference = draw_reference(scene);
+      if (what.mode ==
+          Mode::thickness) {  // whether a ray that grazes the mesh meets it is rounding
+        for (Image* picture : {&image, &reference}) {
+          for (std::size_t i = 0; i < picture->rgba.size(); ++i) {
+            picture->rgba[i] = i % 4 == 3 ? 0 : picture->rgba[i] / static_cast<float>(diagonal);
+          }
+        }
+      }
+      const Difference difference = compare(image, reference);
+      fmt::print("{:<8} {:<11} {:<14} {:>9.2e} {:>9.2e}\n", GetParam(), view.name, what.name,
+                 difference.max, difference.rms);
+      EXPECT_LE(difference.max, what.max_bound)
+          << what.name << ", " << view.name << " at (" << difference.worst_x << ", "
+          << difference.worst_y << ")";
+      EXPECT_LE(difference.rms, what.rms_bound) << what.name << ", " << view.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, CpuAgreement,
+                         testing::Values("sphere", "orbital", "shells", "cavity", "cycle"),
+                         [](const auto& sample) { return sample.param; });
+
+TEST(Cpu, ThreadsDoNotChangeThePicture) {
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 20000);
+  const auto tf = preint::preset("viridis", 0, 1, 3);
+  for (const Case& what : kCases) {
+    const Scene scene = make_scene(mesh, what.mode, tf, 200);
+    const Image several = draw(scene);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(draw(scene).rgba, several.rgba) << what.name;
+  }
+}
+
+TEST(Cpu, ProjectorDrawsManyViews) {
+  const mesh::TetMesh mesh =
+      box(kBox.min(), kBox.max(), 3, 3, 3, [](const auto& p) { return p.x(); });
+  for (const Case& what : kCases) {
+    Scene scene = make_scene(mesh, what.mode, preint::preset("viridis", -1, 1, 4), 72);
+    Request request;
+    request.projector = Projector::cpu;
+    cpu::CellProjector projector(scene, plan(scene, request));
+    for (const View& view : views(kBox)) {
+      scene.camera = view.camera;
+      Stats stats;
+      EXPECT_EQ(projector.draw(Frame(view.camera, 72, 72), stats).rgba, draw(scene).rgba)
+          << what.name << ' ' << view.name;
+      EXPECT_GT(stats.fragments, 0U);
+    }
+  }
+}
+
+TEST(Cpu, NothingDrawableGivesAnEmptyPicture) {
+  mesh::TetMesh flat = tests::unit_tetrahedron();
+  flat.points[3] = {1, 1, 0};
+  for (const mesh::TetMesh& mesh : {flat, mesh::TetMesh{{}, {}, {flat.fields[0]}}}) {
+    Scene scene = make_scene(flat, Mode::thickness, constant_medium({1, 1, 1}, 1), 8);
+    scene.mesh = &mesh;
+    scene.drawable.cells.clear();
+    for (const float channel : draw(scene).rgba) EXPECT_EQ(channel, 0);
+  }
+}
+
+}  // namespace
+}  // namespace tetraglass::project
