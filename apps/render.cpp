@@ -181,7 +181,8 @@ void add_camera_options(CLI::App* app, RenderArguments& a) {
 void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--projector", a.projector, "auto | cpu | gl | reference (exact and slow)")
       ->capture_default_str();
-  app->add_option("--context", a.context, "auto | osmesa, for --projector gl")
+  app->add_option("--context", a.context,
+                  "auto | osmesa | egl (a GPU without a display), for --projector gl")
       ->capture_default_str();
   app->add_option("--sort", a.sort, "auto | none | centroid | fragments (reference)")
       ->capture_default_str();

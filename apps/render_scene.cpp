@@ -234,7 +234,8 @@ project::Request make_request(const RenderArguments& arguments) {
                                                               {"gl", Projector::gl},
                                                               {"reference", Projector::reference}});
   request.context = parse_choice<std::optional<ContextKind>>(
-      arguments.context, "--context", {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}});
+      arguments.context, "--context",
+      {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}, {"egl", ContextKind::egl}});
   request.sort = parse_choice<std::optional<SortMethod>>(arguments.sort, "--sort",
                                                          {{"auto", std::nullopt},
                                                           {"none", SortMethod::none},

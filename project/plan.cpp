@@ -118,7 +118,10 @@ Plan plan(const Scene& scene, const Request& request) {
   plan_projector(scene, plan);
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);
-    plan.reasons.push_back("context: " + to_string(plan.context) + ", needs no display and no GPU");
+    plan.reasons.push_back("context: " + to_string(plan.context) +
+                           (plan.context == ContextKind::egl
+                                ? ", a GPU where there is one; needs no display"
+                                : ", needs no display and no GPU"));
     plan.gl = plan_gl(scene, request.gl, plan.reasons);
   } else if (request.context || is_any_set(request.gl)) {
     throw base::UsageError(
@@ -175,7 +178,15 @@ std::string to_string(Integrator integrator) {
 }
 
 std::string to_string(ContextKind context) {
-  return context == ContextKind::osmesa ? "osmesa" : "none";
+  switch (context) {
+    case ContextKind::none:
+      return "none";
+    case ContextKind::osmesa:
+      return "osmesa";
+    case ContextKind::egl:
+      return "egl";
+  }
+  return "";
 }
 
 }  // namespace tetraglass::project

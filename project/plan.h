@@ -12,7 +12,7 @@ namespace tetraglass::project {
 enum class Projector { reference, gl, cpu };
 enum class SortMethod { none, centroid, fragments };
 enum class Integrator { exact, table2d, table3d };
-enum class ContextKind { none, osmesa };
+enum class ContextKind { none, osmesa, egl };
 
 /// What the user forced; what is not set is chosen by `plan`.
 struct Request {

@@ -57,10 +57,13 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
   switch (kind) {
     case ContextKind::osmesa:
       return std::unique_ptr<Context>(new Context(make_osmesa_platform()));
+    case ContextKind::egl:
+      return std::unique_ptr<Context>(new Context(make_egl_platform()));
     case ContextKind::none:
       break;
   }
-  throw base::UnavailableError("the gl projector needs an OpenGL context; use --context osmesa");
+  throw base::UnavailableError(
+      "the gl projector needs an OpenGL context; use --context osmesa or egl");
 }
 
 Context::Context(std::unique_ptr<Platform> platform)
@@ -77,11 +80,16 @@ Context::Context(std::unique_ptr<Platform> platform)
 }
 
 Context::~Context() {
-  if (current_context == this) current_context = nullptr;
+  if (current_context == this) {
+    platform_->release();
+    current_context = nullptr;
+  }
 }
 
 void Context::make_current() const {
   if (current_context == this) return;
+  if (current_context != nullptr) current_context->platform_->release();
+  current_context = nullptr;
   platform_->make_current();
   current_context = this;
 }

@@ -44,6 +44,8 @@ class OsmesaPlatform final : public Platform {
     }
   }
 
+  void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
   [[nodiscard]] Function load(const std::string& name) const override {
     return OSMesaGetProcAddress(name.c_str());
   }

@@ -21,11 +21,17 @@ class Platform {
   /// Makes the context current on this thread. Throws UnavailableError.
   virtual void make_current() = 0;
 
+  /// Leaves this thread without a context; another library's may then become current.
+  virtual void release() = 0;
+
   /// The address of an OpenGL function ("glViewport"); null where there is none.
   [[nodiscard]] virtual Function load(const std::string& name) const = 0;
 };
 
 /// Mesa's off-screen renderer, 4.5 core. Throws UnavailableError.
 [[nodiscard]] std::unique_ptr<Platform> make_osmesa_platform();
+
+/// A GPU without a display, or Mesa's surfaceless platform, 4.5 core. Throws UnavailableError.
+[[nodiscard]] std::unique_ptr<Platform> make_egl_platform();
 
 }  // namespace tetraglass::project::gl

@@ -554,10 +554,6 @@ TEST(Gl, TwoContextsAtOnce) {
   EXPECT_EQ(a.draw(frame, stats).rgba, expected.rgba);
 }
 
-TEST(GlContext, SaysWhyThereIsNone) {
-  EXPECT_THROW((void)gl::Context::create(ContextKind::none), base::UnavailableError);
-}
-
 TEST(GlProgram, CompileErrorsCarryTheLog) {
   const auto context = gl::Context::create(ContextKind::osmesa);
   try {
