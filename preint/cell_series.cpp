@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <numeric>
-#include <type_traits>
+#include <limits>
 
 #include "base/parallel.h"
 #include "preint/gauss.h"
 #include "preint/segment_pieces.h"
-#include "preint/series_kernel.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -27,7 +26,7 @@ struct Quantities;
 
 template <>
 struct Quantities<LightSpan> {
-  static constexpr std::size_t kCount = kLightQuantities;
+  static constexpr std::size_t kCount = 3;
   static std::array<double, kCount> at(const Color& c, double /*position*/) {
     return {c[0], c[1], c[2]};
   }
@@ -35,18 +34,15 @@ struct Quantities<LightSpan> {
 
 template <>
 struct Quantities<RampedSpan> {
-  static constexpr std::size_t kCount = kRampedQuantities;
+  static constexpr std::size_t kCount = 7;
   static std::array<double, kCount> at(const Color& c, double position) {
     return {c[0], c[1], c[2], position * c[0], position * c[1], position * c[2], position};
   }
 };
 
-/// How many terms leave out less than the tolerance.
-int terms_for(double depth, double tolerance) {
-  double next = depth;  // depth^terms / terms!
-  int terms = 1;
-  for (; terms < kTerms && next > tolerance; ++terms) next *= depth / (terms + 1);
-  return terms;
+/// How deep `terms` terms reach: depth^terms / terms! = tolerance.
+double depth_of_terms(int terms, double tolerance) {
+  return std::exp((std::log(tolerance) + std::lgamma(terms + 1.0)) / terms);
 }
 
 /// The moments [m * quantities + quantity] of a cell of unit length and this optical depth.
@@ -98,41 +94,41 @@ RampedSpan exact_span<RampedSpan>(const TransferFunction& tf, const Segment& seg
 template <class Span>
 CellSeries<Span>::CellSeries(const TransferFunction& tf, const std::vector<double>& nodes,
                              double tolerance)
-    : tf_(tf),
-      nodes_(nodes),
-      tolerance_(tolerance),
-      by_depth_(nodes.size() - 1),
-      depth_(padded_to_vectors(size())) {
-  moments_.resize(kTerms * Quantities<Span>::kCount * padded());
+    : tf_(tf), nodes_(nodes), tolerance_(tolerance), depth_(nodes.size() - 1) {
+  constexpr std::size_t kMoments = kTerms * Quantities<Span>::kCount;
+  moments_.resize(kMoments * size());
   base::parallel_ranges(size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
       const Segment unit{nodes[cell], nodes[cell + 1], 1};
       depth_[cell] = optical_depth(tf, unit);
       const auto moments = unit_moments<Quantities<Span>>(tf, unit, depth_[cell]);
-      for (std::size_t i = 0; i < moments.size(); ++i) moments_[i * padded() + cell] = moments[i];
+      std::copy(moments.begin(), moments.end(), &moments_[cell * kMoments]);
     }
   });
-  std::iota(by_depth_.begin(), by_depth_.end(), std::size_t{0});
-  std::sort(by_depth_.begin(), by_depth_.end(),
-            [&](std::size_t a, std::size_t b) { return depth_[a] > depth_[b]; });
+  for (int terms = 1; terms < kTerms; ++terms) {
+    depth_of_terms_.push_back(depth_of_terms(terms, tolerance));
+  }
+  depth_of_terms_.push_back(std::numeric_limits<double>::infinity());
 }
 
 template <class Span>
-void CellSeries<Span>::evaluate(double length, std::vector<Span>& cells) const {
-  // The kernel writes spans as rows of doubles.
-  static_assert(sizeof(LightSpan) == 4 * sizeof(double));
-  static_assert(sizeof(RampedSpan) == 8 * sizeof(double));
-  std::size_t deep = 0;
-  while (deep < size() && length * depth_[by_depth_[deep]] > kDeepest) ++deep;
-  if (deep < size()) {
-    const int terms = terms_for(length * depth_[by_depth_[deep]], tolerance_);
-    const SeriesInput input{depth_.data(), moments_.data(), padded(), length, kDeepest, terms};
-    // Cells that are too deep for the series are computed along, and replaced below.
-    evaluate_series(input, Quantities<Span>::kCount, reinterpret_cast<double*>(cells.data()));
-  }
-  for (std::size_t i = 0; i < deep; ++i) {
-    const std::size_t cell = by_depth_[i];
-    cells[cell] = exact_span<Span>(tf_, {nodes_[cell], nodes_[cell + 1], length}, tolerance_);
+void CellSeries<Span>::evaluate(const double* lengths, double* cells) const {
+  const SeriesInput input{depth_.data(), moments_.data(),        size(),
+                          kTerms,        depth_of_terms_.data(), kDeepest};
+  evaluate_series(input, kSpanSize<Span>, lengths, cells);
+  const std::size_t lanes = run_lanes();
+  const double longest = *std::max_element(lengths, lengths + lanes);
+  for (std::size_t cell = 0; cell < size(); ++cell) {
+    if (longest * depth_[cell] <= kDeepest) continue;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (lengths[lane] * depth_[cell] <= kDeepest) continue;
+      const Segment segment{nodes_[cell], nodes_[cell + 1], lengths[lane]};
+      const auto doubles = std::bit_cast<std::array<double, kSpanSize<Span>>>(
+          exact_span<Span>(tf_, segment, tolerance_));
+      for (std::size_t i = 0; i < doubles.size(); ++i) {
+        cells[(cell * doubles.size() + i) * lanes + lane] = doubles[i];
+      }
+    }
   }
 }
 

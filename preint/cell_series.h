@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "preint/segment_integral.h"
 #include "preint/subranges.h"
 
 namespace tetraglass::preint {
@@ -32,22 +33,18 @@ class CellSeries {
   /// `nodes` ascending. Both outlive this.
   CellSeries(const TransferFunction& tf, const std::vector<double>& nodes, double tolerance);
 
-  [[nodiscard]] std::size_t size() const { return by_depth_.size(); }
+  [[nodiscard]] std::size_t size() const { return depth_.size(); }
 
-  /// The same, rounded up to whole vectors.
-  [[nodiscard]] std::size_t padded() const { return depth_.size(); }
-
-  /// The cells where each is `length` long. `cells` has padded() entries, of which the first size()
-  /// mean something.
-  void evaluate(double length, std::vector<Span>& cells) const;
+  /// All cells for each of run_lanes() lengths of a cell, as evaluate_series lays them out.
+  void evaluate(const double* lengths, double* cells) const;
 
  private:
   const TransferFunction& tf_;
   const std::vector<double>& nodes_;
   double tolerance_;
-  std::vector<std::size_t> by_depth_;  ///< cells, deepest first
-  std::vector<double> depth_;          ///< of a cell of unit length; padded()
-  std::vector<double> moments_;        ///< [(m * quantities + quantity) * padded() + cell]
+  std::vector<double> depth_;           ///< of a cell of unit length
+  std::vector<double> moments_;         ///< [(cell * terms + m) * quantities + quantity]
+  std::vector<double> depth_of_terms_;  ///< [terms - 1]: how deep that many terms reach
 };
 
 extern template class CellSeries<LightSpan>;

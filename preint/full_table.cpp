@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -12,23 +12,52 @@
 namespace tetraglass::preint {
 namespace {
 
-/// Entries [length][back][front], RGBA, for all the lengths.
-Entries full_entries(const TransferFunction& tf, double low, double high, int n,
-                     const std::vector<double>& lengths, TableMethod method) {
+void write_entry(float* rgba, const LightSpan& span) {
+  rgba[0] = static_cast<float>(span.red);
+  rgba[1] = static_cast<float>(span.green);
+  rgba[2] = static_cast<float>(span.blue);
+  rgba[3] = static_cast<float>(1 - span.transmittance);
+}
+
+/// Entries [length][back][front], RGBA, for all the lengths, by incremental subrange integration.
+Entries incremental_rgba(const TransferFunction& tf, double low, double high, int n,
+                         const std::vector<double>& lengths) {
+  const auto size = static_cast<std::size_t>(n);
+  const std::size_t lanes = run_lanes();
+  Entries rgba(4 * size * size * lengths.size());
+  const auto place = [&](std::size_t l, std::size_t front, std::size_t back) {
+    return &rgba[4 * ((l * size + back) * size + front)];
+  };
+  const auto handle = [&](std::size_t l, const Crossing<LightSpan>& crossing, Run run,
+                          RunMemory& memory) {
+    memory.rgba.resize(4 * lanes * size);
+    compose_entries(memory.cells.data(), size - 1, run, memory.tails.data(), memory.rgba.data());
+    for (std::size_t end = run.narrowest; end < size; ++end) {
+      // The lanes whose ranges begin on the axis; neighbours in the row.
+      const std::size_t count = std::min(lanes, end - run.narrowest + 1);
+      const std::size_t first = run.descending ? lanes - count : 0;
+      const std::size_t front = end - run.width(first);
+      const float* entries = &memory.rgba[4 * (end * lanes + first)];
+      float* row =
+          crossing.upwards() ? place(l, front, end) : place(l, size - 1 - front, size - 1 - end);
+      std::copy_n(entries, 4 * count, row);
+    }
+  };
+  for_each_run<LightSpan>(tf, low, high, n, lengths, kFloatTolerance, handle, [&](std::size_t l) {
+    for (std::size_t i = 0; i < size; ++i) {
+      const double value = table_node(low, high, n, static_cast<int>(i));
+      write_entry(place(l, i, i),
+                  exact_span<LightSpan>(tf, {value, value, lengths[l]}, kFloatTolerance));
+    }
+  });
+  return rgba;
+}
+
+/// The same, each entry integrated on its own.
+Entries exact_rgba(const TransferFunction& tf, double low, double high, int n,
+                   const std::vector<double>& lengths) {
   const auto size = static_cast<std::size_t>(n);
   Entries rgba(4 * size * size * lengths.size());
-  const auto write = [&](std::size_t l, int front, int back, const LightSpan& span, int /*cells*/) {
-    float* entry = &rgba[4 * ((l * size + static_cast<std::size_t>(back)) * size +
-                              static_cast<std::size_t>(front))];
-    entry[0] = static_cast<float>(span.red);
-    entry[1] = static_cast<float>(span.green);
-    entry[2] = static_cast<float>(span.blue);
-    entry[3] = static_cast<float>(1 - span.transmittance);
-  };
-  if (method == TableMethod::incremental) {
-    incremental_entries<LightSpan>(tf, low, high, n, lengths, kFloatTolerance, write);
-    return rgba;
-  }
   base::parallel_ranges(lengths.size() * size, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const double length = lengths[row / size];
@@ -36,11 +65,18 @@ Entries full_entries(const TransferFunction& tf, double low, double high, int n,
       const double to = table_node(low, high, n, back);
       for (int front = 0; front < n; ++front) {
         const Segment segment{table_node(low, high, n, front), to, length};
-        write(row / size, front, back, exact_span<LightSpan>(tf, segment, kFloatTolerance), 1);
+        write_entry(&rgba[4 * (row * size + static_cast<std::size_t>(front))],
+                    exact_span<LightSpan>(tf, segment, kFloatTolerance));
       }
     }
   });
   return rgba;
+}
+
+Entries full_entries(const TransferFunction& tf, double low, double high, int n,
+                     const std::vector<double>& lengths, TableMethod method) {
+  return method == TableMethod::incremental ? incremental_rgba(tf, low, high, n, lengths)
+                                            : exact_rgba(tf, low, high, n, lengths);
 }
 
 }  // namespace

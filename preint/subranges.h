@@ -1,9 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
-
-#include "preint/segment_integral.h"
 
 namespace tetraglass::preint {
 
@@ -12,13 +9,6 @@ struct LightSpan {
   double red = 0, green = 0, blue = 0;
   double transmittance = 1;
 };
-
-/// Front over back.
-inline LightSpan composite(const LightSpan& front, double /*front_cells*/, const LightSpan& back) {
-  const double t = front.transmittance;
-  return {front.red + t * back.red, front.green + t * back.green, front.blue + t * back.blue,
-          t * back.transmittance};
-}
 
 /// The same with the light weighted by the distance from the front of the range, in cells, too;
 /// `white` is that of a white medium, whose unweighted light is the opacity.
@@ -29,46 +19,72 @@ struct RampedSpan {
   double ramped_white = 0;
 };
 
-/// Front over back. The ramp of the back part begins where the front part ends, so the number of
-/// cells in between is added: all terms are positive. (lum2004 takes one ramp for the whole axis,
-/// C_W = (C_G - i C_1) / (j - i), and loses the digits of i / (j - i) where a short range lies far
-/// from the origin; a ramp per range cannot.)
-inline RampedSpan composite(const RampedSpan& front, double front_cells, const RampedSpan& back) {
-  const double t = 1 - front.opacity;
-  const double shift = t * front_cells;
-  return {front.red + t * back.red,
-          front.green + t * back.green,
-          front.blue + t * back.blue,
-          front.opacity + t * back.opacity,
-          front.ramped_red + t * back.ramped_red + shift * back.red,
-          front.ramped_green + t * back.ramped_green + shift * back.green,
-          front.ramped_blue + t * back.ramped_blue + shift * back.blue,
-          front.ramped_white + t * back.ramped_white + shift * back.opacity};
+/// The doubles of a span; what follows handles them in groups of four.
+template <class Span>
+inline constexpr std::size_t kSpanSize = sizeof(Span) / sizeof(double);
+
+/// How many ranges the functions below handle at once, one in each lane of a vector of this
+/// machine: at most kMostLanes.
+[[nodiscard]] std::size_t run_lanes();
+inline constexpr std::size_t kMostLanes = 8;
+
+/// As many ranges of neighbouring widths (in cells) as a vector has lanes.
+struct Run {
+  std::size_t narrowest = 1;
+  bool descending = false;  ///< lane 0 has the widest range, otherwise the narrowest
+  std::size_t lanes = run_lanes();
+
+  [[nodiscard]] std::size_t width(std::size_t lane) const {
+    return narrowest + (descending ? lanes - 1 - lane : lane);
+  }
+};
+
+/// Cells as power series in their optical depth (see CellSeries).
+struct SeriesInput {
+  const double* depth;    ///< [cell], of unit length
+  const double* moments;  ///< [(cell * terms + m) * quantities + quantity]
+  std::size_t count;      ///< cells
+  std::size_t terms;      ///< stored per cell, 1 to 32
+  /// [t]: to which depth t + 1 terms are enough; the last is infinite. Depths are cut to `deepest`:
+  /// cells too deep for the series stay finite.
+  const double* depth_of_terms;
+  double deepest;
+};
+
+/// The spans of all single cells for each of the lengths ([lane], of a cell) as
+/// cells[(cell * kSpanSize + quantity) * lanes + lane]: three quantities besides the transmittance
+/// for `span_size` 4, seven besides the opacity for 8. quantity = length sum_m (-tau)^m moment[m],
+/// opacity = -sum_{m > 0} (-tau)^m / m!, tau = length depth. Results differ between machines by
+/// rounding only (fused multiply-add).
+void evaluate_series(const SeriesInput& input, std::size_t span_size, const double* lengths,
+                     double* cells);
+
+/// Where the span of lane `lane` that ends with sample `end` stands in what compose_subranges
+/// writes, its doubles from 4 * part on.
+[[nodiscard]] inline std::size_t span_offset(std::size_t span_size, std::size_t lanes,
+                                             std::size_t end, std::size_t lane,
+                                             std::size_t part = 0) {
+  return ((end * (span_size / 4) + part) * lanes + lane) * 4;
 }
 
 /// Incremental subrange integration (lum2004, "Efficient Computation of Traditional Lookup Tables",
-/// Fig. 5): `emit(i, span)` for every range of `width` neighbours among the first `count` cells (i
-/// is its first cell), each from three compositions.
+/// Fig. 5): all ranges of the run's widths, each from a constant number of compositions. `cells` as
+/// from evaluate_series, of `count` cells; `spans` as span_offset says, for the samples 0 to count.
+/// Ranges that would begin before the first cell have no meaning. `tails` is working memory of
+/// (narrowest + lanes) * span_size * lanes doubles.
 ///
-/// The cells are cut into bins of `width`. A range that begins at cell r > 0 of a bin is the rest
-/// of that bin followed by the first r cells of the next one. So each bin needs all its tails,
-/// built from right to left, and the heads of the next bin, built from left to right while they are
-/// used. `tails` is working memory, at least `width` long.
-template <class Span, class Emit>
-void for_each_subrange(const std::vector<Span>& cells, std::size_t count, std::size_t width,
-                       std::vector<Span>& tails, Emit&& emit) {
-  for (std::size_t bin = 0; bin + width <= count; bin += width) {
-    tails[width - 1] = cells[bin + width - 1];
-    for (std::size_t r = width - 1; r-- > 0;) {
-      tails[r] = composite(cells[bin + r], 1, tails[r + 1]);
-    }
-    emit(bin, tails[0]);
-    Span head;
-    for (std::size_t r = 1; r < width && bin + r + width <= count; ++r) {
-      head = composite(head, static_cast<double>(r - 1), cells[bin + width + r - 1]);
-      emit(bin + r, composite(tails[r], static_cast<double>(width - r), head));
-    }
-  }
-}
+/// Bins of `narrowest` cells begin at samples B = 0, narrowest, ... A range that ends in the bin
+/// that begins at B is a tail (some cells before B, composited from B to the left) followed by a
+/// head (cells from B on, composited to the right); both serve all the ranges that share them.
+///
+/// The ramp of the back part begins where the front part ends, so the number of cells in between is
+/// added: all terms are positive. (lum2004 takes one ramp for the whole axis,
+/// C_W = (C_G - i C_1) / (j - i), and loses the digits of i / (j - i) where a short range lies far
+/// from the origin; a ramp per range cannot.)
+void compose_subranges(const double* cells, std::size_t count, std::size_t span_size, Run run,
+                       double* tails, double* spans);
+
+/// The same for light, as the entries of a table: rgba[(end * lanes + lane) * 4], A the opacity.
+void compose_entries(const double* cells, std::size_t count, Run run, double* tails, float* rgba);
 
 }  // namespace tetraglass::preint
