@@ -15,11 +15,21 @@
 #include "mesh/decompose.h"
 #include "mesh/distance.h"
 #include "mesh/file_name.h"
+#include "mesh/read_abaqus.h"
+#include "mesh/read_collection.h"
+#include "mesh/read_ensight.h"
 #include "mesh/read_exodus.h"
+#include "mesh/read_gambit.h"
+#include "mesh/read_gmsh.h"
+#include "mesh/read_medit.h"
 #include "mesh/read_msh.h"
+#include "mesh/read_netgen.h"
 #include "mesh/read_plot3d.h"
+#include "mesh/read_points.h"
+#include "mesh/read_pos.h"
 #include "mesh/read_surface.h"
 #include "mesh/read_tetgen.h"
+#include "mesh/read_ucd.h"
 #include "mesh/read_volume.h"
 #include "mesh/read_vtk.h"
 #include "mesh/tetrahedralize.h"
@@ -49,10 +59,40 @@ const std::vector<Format>& formats() {
        [](const std::string& file, const ImportOptions& options) {
          return read_exodus(file, options.time);
        }},
-      {{".xyz", ".bin", ".x", ".g", ".grd", ".p3d"}, timeless(read_plot3d)},
+      {{".bin", ".x", ".g", ".grd", ".p3d"}, timeless(read_plot3d)},
+      {{".xyz"},
+       [](const std::string& file, const ImportOptions&) {
+         return is_point_list(file) ? read_points(file) : read_plot3d(file);
+       },
+       true},
+      {{".pts", ".csv"}, timeless(read_points), true},
+      {{".mesh", ".meshb", ".sol", ".solb"}, timeless(read_medit), true},
+      {{".vol"}, timeless(read_netgen)},
+      {{".neu"}, timeless(read_gambit)},
+      {{".inp"},
+       [](const std::string& file, const ImportOptions&) {
+         return is_ucd(file) ? read_ucd(file) : read_abaqus(file);
+       }},
+      {{".bdf", ".nas", ".unv"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_gmsh(file, options.time);
+       }},
+      {{".pvd", ".vtm"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_collection(file, options.time);
+       }},
+      {{".case", ".encas"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_ensight(file, options.time);
+       }},
+      {{".pos"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_pos(file, options.time);
+       },
+       true},
       {{".off", ".obj", ".stl", ".ply"}, timeless(read_surface), true},
       {{".nrrd", ".nhdr", ".mhd", ".mha", ".inr", ".slc"}, timeless(read_volume)},
-      {{".node", ".ele"}, timeless(read_tetgen), true},
+      {{".node", ".ele", ".poly", ".smesh", ".face"}, timeless(read_tetgen), true},
       {{".msh"},
        [](const std::string& file, const ImportOptions& options) {
          return read_msh(file, options.time);
@@ -74,6 +114,12 @@ const Format& find_format(const std::string& file) {
     throw base::ReadError(file,
                           "holds bare values; tell their layout by --raw WIDTHxHEIGHTxDEPTH:TYPE, "
                           "such as 64x64x64:uint8");
+  }
+  if (extension == ".med" || extension == ".cgns") {
+    throw base::ReadError(
+        file, fmt::format("the format {} is not read; write the mesh as .vtu, .e or .msh "
+                          "with the program it comes from",
+                          extension == ".med" ? "MED" : "CGNS"));
   }
   const std::vector<std::string> known = readable_extensions();
   const std::vector<std::string> near =

@@ -40,7 +40,7 @@ std::optional<double> parse_number(std::string_view word) {
   return value;
 }
 
-std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+std::optional<std::vector<double>> parse_numbers(std::string_view text, Repetition repetition) {
   std::vector<double> numbers;
   for (std::size_t at = 0;;) {
     while (at < text.size() && is_space(text[at])) ++at;
@@ -51,9 +51,11 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
     std::size_t times = 1;
     if (const std::size_t star = word.find('*'); star != std::string_view::npos) {
       const auto [stop, error] = std::from_chars(word.data(), word.data() + star, times);
-      // A repetition that is longer than the whole text could be written is no honest one.
       constexpr std::size_t kMost = std::size_t{1} << 28U;
-      if (error != std::errc() || stop != word.data() + star || times > kMost) return std::nullopt;
+      if (repetition == Repetition::refused || error != std::errc() || stop != word.data() + star ||
+          times > kMost || numbers.size() > kMost - times) {
+        return std::nullopt;
+      }
       word.remove_prefix(star + 1);
     }
     const std::optional<double> value = parse_number(word);

@@ -13,8 +13,12 @@ namespace tetraglass::mesh {
 /// or less.
 [[nodiscard]] std::optional<double> parse_number(std::string_view word);
 
-/// All numbers of a text that holds nothing else, between spaces or commas; Fortran's repetition
-/// (3*0.5) is written out. Nothing if a word is no number.
-[[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
+/// Whether Fortran's repetition (3*0.5) is a way to write numbers.
+enum class Repetition { refused, allowed };
+
+/// All numbers of a text that holds nothing else, between spaces or commas; repetition is written
+/// out, to 2^28 numbers at most. Nothing if a word is no number.
+[[nodiscard]] std::optional<std::vector<double>> parse_numbers(
+    std::string_view text, Repetition repetition = Repetition::refused);
 
 }  // namespace tetraglass::mesh

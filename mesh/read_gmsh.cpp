@@ -5,6 +5,7 @@
 #ifdef TETRAGLASS_WITH_GMSH
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <mutex>
 #include <vector>
@@ -12,8 +13,10 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "mesh/file_name.h"
 #include "mesh/gmsh_elements.h"
 #include "mesh/memory.h"
+#include "mesh/read_apart.h"
 #include "mesh/tag_map.h"
 #include "mesh/time_step.h"
 
@@ -196,7 +199,13 @@ void GmshReader::read_view(int tag, const std::string& time) {
 }  // namespace
 
 MeshData read_gmsh(const std::string& file, const std::string& time) {
-  return GmshReader().read(file, time);
+  // A file of any other extension is run as a program of Gmsh's language.
+  if (std::filesystem::path(file).extension().string() != extension_of(file)) {
+    throw base::ReadError(file, "its extension has to be in small letters for Gmsh's library");
+  }
+  constexpr unsigned kSeconds = 600;
+  return read_apart(
+      file, [&] { return GmshReader().read(file, time); }, kSeconds);
 }
 
 }  // namespace tetraglass::mesh

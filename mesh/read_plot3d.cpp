@@ -275,7 +275,7 @@ std::optional<std::vector<Block>> read_blocks(const std::string& file, Content c
                                               const std::vector<Dimensions>* wanted = nullptr) {
   const std::string bytes = content_of(file);
   if (is_text(bytes)) {
-    const auto numbers = parse_numbers(bytes);
+    const auto numbers = parse_numbers(bytes, Repetition::allowed);
     return numbers ? read_text(*numbers, content) : std::nullopt;
   }
   const auto format = detect(bytes, content, wanted);

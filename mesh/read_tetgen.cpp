@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "mesh/file_name.h"
 #include "mesh/text_lines.h"
 
 namespace tetraglass::mesh {
@@ -22,8 +23,7 @@ std::vector<Field> attribute_fields(const std::string& name, Location location, 
 }
 
 /// Returns the number that the first point has.
-std::int64_t read_points(const std::string& file, MeshData& mesh) {
-  TextLines lines(file);
+std::int64_t read_points(TextLines& lines, MeshData& mesh) {
   lines.expect("the number of points");
   const std::size_t count = lines.count(0, "points");
   if (lines.words().size() > 1 && lines.integer(1) != 3) {
@@ -73,19 +73,138 @@ void read_tetrahedra(const std::string& file, std::int64_t first, MeshData& mesh
   for (Field& field : fields) mesh.fields.push_back(std::move(field));
 }
 
-}  // namespace
+/// A boundary of facets, from a file whose list of points may be empty: they are in NAME.node then.
+class BoundaryReader {
+ public:
+  explicit BoundaryReader(const std::string& file) : file_(file), lines_(file) {}
 
-MeshData read_tetgen(const std::string& file) {
-  const std::filesystem::path path(file);
-  const std::string nodes = std::filesystem::path(path).replace_extension(".node").string();
-  const std::string elements = std::filesystem::path(path).replace_extension(".ele").string();
-  const bool has_elements = std::filesystem::is_regular_file(elements);
+  MeshData read(const std::string& extension);
+
+ private:
+  void read_facets();
+  void read_polygons();
+  void read_triangles();
+  void note_rest();
+  /// The polygon of the points from word `at` on; it may go on in the next lines.
+  void add_polygon(std::size_t at, std::size_t size);
+
+  std::string file_;
+  TextLines lines_;
+  MeshData mesh_;
+  std::int64_t first_ = 0;
+  std::size_t segments_ = 0;
+};
+
+std::string node_file(const std::string& file) {
+  const std::string nodes = std::filesystem::path(file).replace_extension(".node").string();
   if (!std::filesystem::is_regular_file(nodes)) {
     throw base::ReadError(file, fmt::format("the file with its points, {}, is missing", nodes));
   }
+  return nodes;
+}
+
+MeshData BoundaryReader::read(const std::string& extension) {
+  const bool has_points = extension != ".face";
+  if (has_points) first_ = read_points(lines_, mesh_);
+  if (mesh_.points.empty()) {
+    mesh_.fields.clear();
+    TextLines lines(node_file(file_));
+    first_ = read_points(lines, mesh_);
+  }
+  if (extension == ".face") {
+    read_triangles();
+  } else {
+    extension == ".poly" ? read_facets() : read_polygons();
+    note_rest();
+  }
+  if (segments_ > 0) {
+    mesh_.notes.push_back(
+        fmt::format("{} segments and points within facets are left out", segments_));
+  }
+  return std::move(mesh_);
+}
+
+void BoundaryReader::add_polygon(std::size_t at, std::size_t size) {
+  std::vector<std::uint32_t> polygon;
+  while (polygon.size() < size) {
+    if (at == lines_.words().size()) {
+      lines_.expect("the other points of a polygon");
+      at = 0;
+    }
+    polygon.push_back(lines_.index(at++, mesh_.points.size(), first_));
+  }
+  if (size < 3) {
+    ++segments_;
+  } else {
+    const CellType type = size == 3   ? CellType::triangle
+                          : size == 4 ? CellType::quad
+                                      : CellType::polygon;
+    mesh_.add_cell(type, polygon);
+  }
+}
+
+/// Facets of polygons, with holes.
+void BoundaryReader::read_facets() {
+  lines_.expect("the number of facets");
+  const std::size_t count = lines_.count(0, "facets");
+  for (std::size_t i = 0; i < count; ++i) {
+    lines_.expect(fmt::format("facet {} of {}", i + 1, count));
+    const std::size_t polygons = lines_.count(0, "polygons");
+    const std::size_t holes = lines_.words().size() > 1 ? lines_.count(1, "holes") : 0;
+    if (holes > 0) lines_.fail("facets with holes are not read; cut them into polygons without");
+    const std::size_t before = mesh_.cell_count();
+    for (std::size_t k = 0; k < polygons; ++k) {
+      lines_.expect(fmt::format("polygon {} of facet {}", k + 1, i + 1));
+      add_polygon(1, lines_.count(0, "points"));
+    }
+    // Its outline, and others that lie on it.
+    if (mesh_.cell_count() > before + 1) {
+      lines_.fail("facets of several polygons are not read; give each polygon a facet of its own");
+    }
+  }
+}
+
+void BoundaryReader::read_polygons() {
+  lines_.expect("the number of facets");
+  const std::size_t count = lines_.count(0, "facets");
+  for (std::size_t i = 0; i < count; ++i) {
+    lines_.expect(fmt::format("facet {} of {}", i + 1, count));
+    add_polygon(1, lines_.count(0, "points"));
+  }
+}
+
+void BoundaryReader::read_triangles() {
+  lines_.expect("the number of faces");
+  const std::size_t count = lines_.count(0, "faces");
+  for (std::size_t i = 0; i < count; ++i) {
+    lines_.expect(fmt::format("face {} of {}", i + 1, count));
+    add_polygon(1, 3);
+  }
+}
+
+void BoundaryReader::note_rest() {
+  if (!lines_.next()) return;
+  if (const std::size_t holes = lines_.count(0, "holes"); holes > 0) {
+    mesh_.notes.push_back(
+        fmt::format("{} points that tell of holes are not used: what is a cavity is told by the "
+                    "direction of its faces",
+                    holes));
+  }
+}
+
+}  // namespace
+
+MeshData read_tetgen(const std::string& file) {
+  const std::string extension = extension_of(file);
+  if (extension == ".poly" || extension == ".smesh" || extension == ".face") {
+    return BoundaryReader(file).read(extension);
+  }
+  const std::string nodes = node_file(file);
+  const std::string elements = std::filesystem::path(file).replace_extension(".ele").string();
   MeshData mesh;
-  const std::int64_t first = read_points(nodes, mesh);
-  if (has_elements) read_tetrahedra(elements, first, mesh);
+  TextLines lines(nodes);
+  const std::int64_t first = read_points(lines, mesh);
+  if (std::filesystem::is_regular_file(elements)) read_tetrahedra(elements, first, mesh);
   return mesh;
 }
 

@@ -26,11 +26,15 @@ TEST(ParseNumber, TakesTheNumbersOfCAndFortran) {
 }
 
 TEST(ParseNumbers, WritesRepetitionsOut) {
-  EXPECT_EQ(parse_numbers(" 1, 2\n3*0.5\t4 "), (std::vector<double>{1, 2, 0.5, 0.5, 0.5, 4}));
+  EXPECT_EQ(parse_numbers(" 1, 2\n3*0.5\t4 ", Repetition::allowed),
+            (std::vector<double>{1, 2, 0.5, 0.5, 0.5, 4}));
   EXPECT_EQ(parse_numbers(""), std::vector<double>{});
   EXPECT_FALSE(parse_numbers("1 two 3"));
-  EXPECT_FALSE(parse_numbers("99999999999999*1"));
-  EXPECT_FALSE(parse_numbers("*1"));
+  EXPECT_FALSE(parse_numbers("2*1"));
+  EXPECT_FALSE(parse_numbers("99999999999999*1", Repetition::allowed));
+  EXPECT_FALSE(parse_numbers("*1", Repetition::allowed));
+  // Not more than memory holds, whatever a short text asks for.
+  EXPECT_FALSE(parse_numbers("200000000*1 200000000*1", Repetition::allowed));
 }
 
 TEST(IsText, TellsTextFromBinary) {
