@@ -161,6 +161,10 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
   app->add_flag("--log", a.logarithmic, "Spread --tf over the values logarithmically");
   app->add_option("--range", a.range,
                   "LO:HI, the values at the ends of a preset. Default: the field's range");
+  app->add_option("--clip", a.clip,
+                  "NX,NY,NZ,D: keep what lies where n.x <= D, cells are cut; repeatable")
+      ->take_all()
+      ->expected(1);
   app->add_option("--background", a.background,
                   "Linear R,G,B[,A] behind a .png. Default: black (white in mode absorption)");
 }

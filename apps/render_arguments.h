@@ -31,6 +31,7 @@ struct RenderArguments {
   std::string up;
   std::string fov;
   std::string ortho;
+  std::vector<std::string> clip;
   std::string view;
   std::string projector = "auto";
   std::string context = "auto";

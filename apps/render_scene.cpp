@@ -132,6 +132,17 @@ std::vector<preint::Isosurface> make_isosurfaces(
   return surfaces;
 }
 
+std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& arguments) {
+  std::vector<project::ClipPlane> planes;
+  for (const std::string& text : arguments.clip) {
+    const std::vector<double> numbers = parse_numbers(text, "--clip", 4, 4);
+    project::ClipPlane plane{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+    if (plane.normal.isZero(0)) throw base::UsageError("--clip needs a normal that is not 0");
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
 void refuse_iso_options(const RenderArguments& arguments) {
   if (!arguments.isovalues.empty() || !arguments.iso_colors.empty() ||
       !arguments.iso_opacity.empty()) {
@@ -218,6 +229,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   } else {
     refuse_iso_options(arguments);
   }
+  scene.clip = make_clip_planes(arguments);
   scene.camera = make_camera(arguments, mesh, static_cast<double>(scene.width) / scene.height);
   return scene;
 }

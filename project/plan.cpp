@@ -128,6 +128,12 @@ Plan plan(const Scene& scene, const Request& request) {
         "--context, --layout, --edge-fix, --minimum, --perspective and --target-format are for "
         "--projector gl");
   }
+  if (!scene.clip.empty()) {
+    if (plan.projector == Projector::cpu) {
+      throw base::UsageError("--projector cpu does not clip; use --projector gl");
+    }
+    plan.reasons.push_back(fmt::format("clip: cells are cut at {} planes", scene.clip.size()));
+  }
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
     throw base::UsageError(
         "field '" + scene.field.name +

@@ -7,6 +7,7 @@
 #include "preint/isosurfaces.h"
 #include "preint/transfer_function.h"
 #include "project/camera.h"
+#include "project/clip.h"
 
 namespace tetraglass::project {
 
@@ -24,6 +25,7 @@ struct Scene {
   MipOf mip_of = MipOf::field;
   std::vector<preint::Isosurface> isosurfaces;  ///< mode iso
   Shading shading = Shading::none;
+  std::vector<ClipPlane> clip;  ///< what all of them keep is drawn
   Camera camera;
   int width = 800;
   int height = 600;

@@ -46,6 +46,10 @@ float texel_centre(float x, float n) { return (clamp(x, 0.0, 1.0) * (n - 1) + 0.
 #include "segment_by_planes.glsl"
 #endif
 
+#ifdef CLIP_PLANES
+#include "clip.glsl"
+#endif
+
 #if defined(TABLE_2D) || defined(TABLE_3D)
 float value_axis(float s, float n) { return texel_centre(0.5 * s + 0.5, n); }
 #endif
@@ -146,6 +150,9 @@ void main() {
   vec2 position = gl_FragCoord.xy + tile_corner;
   Segment seg;
   if (!segment(position, seg)) discard;
+#ifdef CLIP_PLANES
+  if (!clip(position, seg)) discard;
+#endif
 #if defined(MODE_THICKNESS)
   result = seg.size;
 #elif defined(MODE_MIP_FIELD)

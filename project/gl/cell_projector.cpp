@@ -191,7 +191,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const base::Stopwatch clock;
   stats.context = context_.description();
   Image image(frame.width(), frame.height());
-  const ViewUniforms view(frame, normalization_);
+  const ViewUniforms view(frame, normalization_, scene_.clip);
   if (!drawn_.empty() && view.sees_mesh()) {
     const Program& shaders = program(frame.parallel());
     const int width = std::min(frame.width(), largest_tile_);

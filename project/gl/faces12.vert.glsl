@@ -16,7 +16,7 @@ uniform vec3 eye;
 #ifdef PARALLEL
 uniform vec3 direction;
 #endif
-#ifdef OPAQUE
+#ifdef ENTRY_DEPTH
 uniform vec4 to_depth;   // z - focus of a point: its product with (x, y, z, 1)
 #endif
 #ifdef SHADING_FLAT
@@ -29,7 +29,7 @@ flat out float longest_edge;
 #ifndef PARALLEL
 out vec3 from_eye;
 #endif
-#ifdef OPAQUE
+#ifdef ENTRY_DEPTH
 out float entry_depth;
 #endif
 #ifdef VALUES
@@ -84,7 +84,7 @@ void main() {
   // Counter-clockwise: the edge to the next vertex lies across from the one before.
   if (adjacent_enters) parameters[index == 0 ? 2 : index - 1] = not_the_exit;
 #endif
-#ifdef OPAQUE
+#ifdef ENTRY_DEPTH
   entry_depth = dot(to_depth, vec4(point, 1));
 #endif
 #ifdef VALUES

@@ -204,7 +204,10 @@ Table minimum_texture(const Context& context, Minimum minimum) {
 Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Plan& plan,
                            const Normalization& normalization,
                            const std::vector<std::uint32_t>& drawn)
-    : plan_(plan.gl), count_(drawn.size()), arrays_(context) {
+    : plan_(plan.gl),
+      needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty()),
+      count_(drawn.size()),
+      arrays_(context) {
   constexpr std::size_t kMost = std::numeric_limits<int>::max() / kVertices;
   if (count_ > kMost) {
     throw base::UnavailableError("the mesh has more cells than --layout " +
@@ -241,6 +244,7 @@ void Faces12Cells::upload(const Scene& scene, const Normalization& normalization
 
 std::vector<std::string> Faces12Cells::switches() const {
   std::vector<std::string> names = {"FACES12"};
+  if (needs_depth_) names.emplace_back("ENTRY_DEPTH");
   if (plan_.edge_fix) names.emplace_back("EDGE_FIX");
   if (plan_.minimum != Minimum::shader) names.emplace_back("MINIMUM_TEXTURE");
   if (plan_.interpolate_lengths) names.emplace_back("INTERPOLATED_LENGTHS");

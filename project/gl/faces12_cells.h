@@ -42,6 +42,7 @@ class Faces12Cells final : public CellLayout {
               const std::vector<std::uint32_t>& drawn);
 
   GlPlan plan_;
+  bool needs_depth_;  // where on the ray a segment lies matters
   std::size_t count_;
   std::size_t bytes_ = 0;
   VertexArrays arrays_;

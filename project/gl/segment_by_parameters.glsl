@@ -8,7 +8,7 @@ uniform vec3 direction;  // of the rays
 #else
 in vec3 from_eye;     // to the point on the front face
 #endif
-#ifdef OPAQUE
+#ifdef ENTRY_DEPTH
 in float entry_depth; // z - focus of that point
 #endif
 #ifdef VALUES
@@ -50,7 +50,7 @@ bool segment(vec2 position, out Segment seg) {
 #endif
 #endif
   seg.entry = 0;
-#ifdef OPAQUE
+#ifdef ENTRY_DEPTH
   seg.entry = entry_depth;
 #endif
   seg.exit = seg.entry + seg.size / stretch(position);

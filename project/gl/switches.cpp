@@ -48,6 +48,9 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
     names.emplace_back(scene.field.location == mesh::Location::cell ? "CELL_FIELD" : "VALUES");
   }
   if (reads_medium(scene, plan)) names.emplace_back("NEEDS_MEDIUM");
+  if (!scene.clip.empty()) {
+    names.push_back("CLIP_PLANES " + std::to_string(scene.clip.size()));
+  }
   if (plan.integrator == Integrator::table2d) names.emplace_back("TABLE_2D");
   if (plan.integrator == Integrator::table3d) names.emplace_back("TABLE_3D");
   if (scene.mode == Mode::iso) {

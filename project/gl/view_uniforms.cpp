@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace tetraglass::project::gl {
 
-ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalization)
+ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalization,
+                           std::span<const ClipPlane> clip)
     : parallel_(frame.parallel()),
       axes_(frame.axes()),
       origin_(frame.to_camera(normalization.center) / normalization.radius),
@@ -24,6 +27,17 @@ ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalizatio
     // Depths beyond the focus lose digits (farthest / focus): at most a factor of 2 this way.
     focus_ = std::max(focus_, 1.0);
     nearest_depth_ = std::max(nearest_depth_, 0.0);
+  }
+  for (const ClipPlane& plane : clip) {
+    const double size = plane.normal.norm();
+    const Eigen::Vector3d normal = axes_ * plane.normal / size;
+    const double offset =
+        (plane.offset - plane.normal.dot(normalization.center)) / (size * normalization.radius);
+    const double room = offset + normal.dot(origin_ - Eigen::Vector3d(0, 0, focus_));
+    // Farther off than the mesh is large it keeps all of it or nothing.
+    constexpr double kFar = 1e9;
+    clip_.emplace_back(normal.cast<float>().x(), normal.cast<float>().y(), normal.cast<float>().z(),
+                       static_cast<float>(std::clamp(room, -kFar, kFar)));
   }
 }
 
@@ -79,6 +93,9 @@ void ViewUniforms::set(const Program& program, const Tile& tile, int subpixel_bi
                         std::ldexp(std::max(tile.width, tile.height), -19) + 4 * up);
   program.set("margin", static_cast<float>(2 * rounded));
 
+  for (std::size_t i = 0; i < clip_.size(); ++i) {
+    program.set(fmt::format("clip_planes[{}]", i).c_str(), clip_[i]);
+  }
   program.set("tile_corner", Eigen::Vector2f(tile.x, tile.y));
   program.set("picture_middle", Eigen::Vector2f(middle_.cast<float>()));
   program.set("pixel_pitch", static_cast<float>(pitch_));

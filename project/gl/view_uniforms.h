@@ -1,6 +1,10 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "project/camera.h"
+#include "project/clip.h"
 #include "project/gl/normalization.h"
 #include "project/gl/program.h"
 
@@ -17,7 +21,8 @@ struct Tile {
 /// The camera in the normalized units of the mesh, as the shaders want it.
 class ViewUniforms {
  public:
-  ViewUniforms(const Frame& frame, const Normalization& normalization);
+  ViewUniforms(const Frame& frame, const Normalization& normalization,
+               std::span<const ClipPlane> clip);
 
   /// Whether anything of the mesh can lie in front of the eye.
   [[nodiscard]] bool sees_mesh() const { return parallel_ || farthest_depth_ > 0; }
@@ -36,6 +41,7 @@ class ViewUniforms {
   double focus_;
   double nearest_depth_;  // of the mesh, along the view axis; not behind the eye in perspective
   double farthest_depth_;
+  std::vector<Eigen::Vector4f> clip_;
 };
 
 }  // namespace tetraglass::project::gl

@@ -35,6 +35,7 @@ class Tracer {
   /// afterwards.
   [[nodiscard]] Rgba trace(int x, int y, std::vector<RaySegment>& segments) const {
     cells_.segments(x, y, segments);
+    if (!scene_.clip.empty()) clip(x, y, segments);
     if (segments.empty()) return Rgba::Zero();
     const Eigen::Vector3d ray = cells_.frame().ray_direction(cells_.frame().image_plane(x, y));
     switch (scene_.mode) {
@@ -55,6 +56,28 @@ class Tracer {
   }
 
  private:
+  /// Cuts the segments where the scene's planes do, and drops those of which nothing is left.
+  void clip(int x, int y, std::vector<RaySegment>& segments) const {
+    const DepthRange kept =
+        clipped_ray(scene_.clip, cells_.frame(), cells_.frame().image_plane(x, y));
+    std::erase_if(segments, [&](RaySegment& s) {
+      const double near = std::max(s.entry, kept.near);
+      const double far = std::min(s.exit, kept.far);
+      if (!(near < far)) return true;
+      const double t0 = (near - s.entry) / (s.exit - s.entry);
+      const double t1 = (far - s.entry) / (s.exit - s.entry);
+      const double rise = s.back - s.front;
+      const Eigen::Vector4d turn = s.exit_weights - s.entry_weights;
+      s.back = s.front + t1 * rise;
+      s.front += t0 * rise;
+      s.exit_weights = s.entry_weights + t1 * turn;
+      s.entry_weights += t0 * turn;
+      s.entry = near;
+      s.exit = far;
+      return false;
+    });
+  }
+
   /// `stretch` is the world length of a unit of depth.
   static preint::Segment piece(const RaySegment& s, double stretch) {
     return {s.front, s.back, (s.exit - s.entry) * stretch};
