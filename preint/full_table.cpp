@@ -5,9 +5,9 @@
 
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "preint/incremental.h"
 #include "preint/table.h"
 #include "preint/table_axis.h"
+#include "preint/table_entries.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -28,8 +28,9 @@ Entries incremental_rgba(const TransferFunction& tf, double low, double high, in
   const auto place = [&](std::size_t l, std::size_t front, std::size_t back) {
     return &rgba[4 * ((l * size + back) * size + front)];
   };
-  const auto handle = [&](std::size_t l, const Crossing<LightSpan>& crossing, Run run,
-                          RunMemory& memory) {
+  const auto handle = [&](std::size_t l, const Crossing<LightSpan>& crossing, const Run& run,
+                          const double* cell_lengths, RunMemory& memory) {
+    evaluate_cells(crossing, run, cell_lengths, memory);
     memory.rgba.resize(4 * lanes * size);
     compose_entries(memory.cells.data(), size - 1, run, memory.tails.data(), memory.rgba.data());
     for (std::size_t end = run.narrowest; end < size; ++end) {
@@ -43,40 +44,30 @@ Entries incremental_rgba(const TransferFunction& tf, double low, double high, in
       std::copy_n(entries, 4 * count, row);
     }
   };
-  for_each_run<LightSpan>(tf, low, high, n, lengths, kFloatTolerance, handle, [&](std::size_t l) {
+  const auto diagonal = [&](std::size_t l) {
     for (std::size_t i = 0; i < size; ++i) {
       const double value = table_node(low, high, n, static_cast<int>(i));
       write_entry(place(l, i, i),
                   exact_span<LightSpan>(tf, {value, value, lengths[l]}, kFloatTolerance));
     }
-  });
-  return rgba;
-}
-
-/// The same, each entry integrated on its own.
-Entries exact_rgba(const TransferFunction& tf, double low, double high, int n,
-                   const std::vector<double>& lengths) {
-  const auto size = static_cast<std::size_t>(n);
-  Entries rgba(4 * size * size * lengths.size());
-  base::parallel_ranges(lengths.size() * size, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const double length = lengths[row / size];
-      const int back = static_cast<int>(row % size);
-      const double to = table_node(low, high, n, back);
-      for (int front = 0; front < n; ++front) {
-        const Segment segment{table_node(low, high, n, front), to, length};
-        write_entry(&rgba[4 * (row * size + static_cast<std::size_t>(front))],
-                    exact_span<LightSpan>(tf, segment, kFloatTolerance));
-      }
-    }
-  });
+  };
+  for_each_run<LightSpan>(tf, low, high, n, lengths, kFloatTolerance, TableMethod::incremental,
+                          handle, diagonal);
   return rgba;
 }
 
 Entries full_entries(const TransferFunction& tf, double low, double high, int n,
                      const std::vector<double>& lengths, TableMethod method) {
-  return method == TableMethod::incremental ? incremental_rgba(tf, low, high, n, lengths)
-                                            : exact_rgba(tf, low, high, n, lengths);
+  if (method == TableMethod::incremental) return incremental_rgba(tf, low, high, n, lengths);
+  const auto size = static_cast<std::size_t>(n);
+  Entries rgba(4 * size * size * lengths.size());
+  table_entries<LightSpan>(
+      tf, low, high, n, lengths, kFloatTolerance, method,
+      [&](std::size_t l, int front, int back, const LightSpan& span, int /*cells*/) {
+        const std::size_t row = l * size + static_cast<std::size_t>(back);
+        write_entry(&rgba[4 * (row * size + static_cast<std::size_t>(front))], span);
+      });
+  return rgba;
 }
 
 }  // namespace

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-#include <oneapi/tbb/parallel_for.h>
-
-#include "base/parallel.h"
-#include "preint/incremental.h"
 #include "preint/table_axis.h"
+#include "preint/table_entries.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -25,27 +22,14 @@ void ramped_entries(const TransferFunction& tf, double low, double high, double 
                     TableMethod method, const Write& write) {
   check_axis(low, high, n);
   check_length(length);
-  if (method == TableMethod::incremental) {
-    incremental_entries<RampedSpan>(
-        tf, low, high, n, {length}, kFloatTolerance,
-        [&](std::size_t, int front, int back, RampedSpan span, int cells) {
-          for (double* ramped :
-               {&span.ramped_red, &span.ramped_green, &span.ramped_blue, &span.ramped_white}) {
-            *ramped /= cells;
-          }
-          write(front, back, span);
-        });
-    return;
-  }
-  base::parallel_ranges(static_cast<std::size_t>(n), 1, [&](std::size_t begin, std::size_t end) {
-    for (int back = static_cast<int>(begin); back < static_cast<int>(end); ++back) {
-      const double to = table_node(low, high, n, back);
-      for (int front = 0; front < n; ++front) {
-        const Segment segment{table_node(low, high, n, front), to, length};
-        write(front, back, exact_span<RampedSpan>(tf, segment, kFloatTolerance));
-      }
-    }
-  });
+  table_entries<RampedSpan>(tf, low, high, n, {length}, kFloatTolerance, method,
+                            [&](std::size_t, int front, int back, RampedSpan span, int cells) {
+                              for (double* ramped : {&span.ramped_red, &span.ramped_green,
+                                                     &span.ramped_blue, &span.ramped_white}) {
+                                *ramped /= cells;
+                              }
+                              write(front, back, span);
+                            });
 }
 
 Table2D empty_table(double low, double high, int n) {

@@ -1,45 +1,10 @@
 #include "preint/segment_integral.h"
 
-#include <array>
-#include <limits>
-#include <span>
-#include <utility>
-
-#include "preint/gauss.h"
+#include "preint/precision.h"
 #include "preint/segment_pieces.h"
 
 namespace tetraglass::preint {
 namespace {
-
-/// A Gauss-Legendre rule on [0, 1].
-using Rule = std::span<const GaussNode>;
-
-constexpr std::size_t kRules = 4;
-const std::array<Rule, kRules> kRuleNodes = {kGauss4, kGauss6, kGauss10, kGauss14};
-
-/// How deep a part each of these rules may cover for a tolerance: there the error of int k p
-/// exp(-tau) dx is below `tolerance` times the opacity of the part, for any linear k and any p that
-/// is a product of two linear functions with values in [0, 1]. (Largest over nine ratios of k at
-/// the two ends and the nine products of 1, 1 - x and x; found by bisection in 30 digits against a
-/// composite rule of 128 nodes, rounded down.) Errors of parts add up to less than the tolerance,
-/// because what lies behind a part is dimmed by it.
-struct Precision {
-  double tolerance;
-  double opaque;  ///< the optical depth behind which lies less than tolerance / 100
-  std::array<double, kRules> deepest;
-};
-constexpr std::array<Precision, 5> kPrecisions = {{{1e-4, 13.9, {1.1, 4.2, 9.9, 9.9}},
-                                                   {1e-6, 18.5, {0.28, 1.9, 8.8, 9.9}},
-                                                   {1e-9, 25.4, {0.03, 0.56, 4.3, 9.9}},
-                                                   {1e-12, 32.3, {3e-3, 0.15, 2.2, 6.9}},
-                                                   {kFinest, 39.2, {3e-4, 0.039, 1.1, 4.3}}}};
-
-const Precision& precision_for(double tolerance) {
-  for (const Precision& p : kPrecisions) {
-    if (p.tolerance <= tolerance) return p;
-  }
-  return kPrecisions.back();
-}
 
 /// Light that reaches the front of a piece, parted by the products of (1 - x) and x: enough for any
 /// function that is quadratic in x. A linear function with values f and b at the ends gathers f
@@ -61,20 +26,6 @@ double position_of_depth(const OpticalExtinction& k, double depth, double part) 
   const double u = part / depth;
   const double root = std::sqrt(std::max(0.0, front * front + 2 * (back - front) * u));
   return std::min(1.0, 2 * u / (front + root));
-}
-
-/// The rule and the number of equally deep parts that cover the depth with the fewest nodes.
-std::pair<Rule, int> cheapest(double depth, const Precision& precision) {
-  std::pair<Rule, int> best;
-  double fewest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kRules; ++i) {
-    const double parts = std::ceil(depth / precision.deepest[i]);
-    const double nodes = parts * static_cast<double>(kRuleNodes[i].size());
-    if (nodes >= fewest) continue;
-    fewest = nodes;
-    best = {kRuleNodes[i], static_cast<int>(parts)};
-  }
-  return best;
 }
 
 /// int k(x) p(x) exp(-tau(x)) dx over x in [0, 1] for the products p above, optical extinctions k

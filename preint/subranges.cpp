@@ -143,8 +143,8 @@ void compose(const double* cells, std::size_t count, Run run, double* tails, T* 
   const std::size_t step = hn::Lanes(d);
   const std::size_t block = kSize * step;  // doubles of one cell or tail
   // How many cells the range of each lane has, and where its tail would be if all were in the tail.
-  HWY_ALIGN double widths[kMostLanes];
-  HWY_ALIGN std::int64_t tail_places[kMostLanes];
+  HWY_ALIGN double widths[kMostLanes] = {};
+  HWY_ALIGN std::int64_t tail_places[kMostLanes] = {};
   for (std::size_t j = 0; j < step; ++j) {
     const std::size_t width = run.width(j);
     widths[j] = static_cast<double>(width);

@@ -37,11 +37,11 @@ Table2D table_2d(double low, double high, int n, const Entry& entry) {
   return table;
 }
 
-/// A table that is the same in both directions: entries grow cell by cell, from `entry` of single
-/// cells.
+/// A table that is the same in both directions, from `entry` of single cells: ranges grow cell by
+/// cell, or (brute force) begin anew for every entry.
 template <class Entry, class Join, class Finish>
-Table2D growing_ranges(double low, double high, int n, const Entry& entry, const Join& join,
-                       const Finish& finish) {
+Table2D joined_cells(double low, double high, int n, TableMethod method, const Entry& entry,
+                     const Join& join, const Finish& finish) {
   check_axis(low, high, n);
   const auto size = static_cast<std::size_t>(n);
   const auto node = [&](std::size_t i) { return table_node(low, high, n, static_cast<int>(i)); };
@@ -51,14 +51,25 @@ Table2D growing_ranges(double low, double high, int n, const Entry& entry, const
   const auto set = [&](std::size_t front, std::size_t back, const Eigen::Array4d& value) {
     Eigen::Map<Eigen::Array4f>(&table.rgba[4 * (back * size + front)]) = value.cast<float>();
   };
+  const auto range = [&](std::size_t first, std::size_t last) {
+    Eigen::Array4d sum = cells[first];
+    for (std::size_t cell = first + 1; cell < last; ++cell) sum = join(sum, cells[cell]);
+    return sum;
+  };
   base::parallel_ranges(size, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t first = begin; first < end; ++first) {
       set(first, first, entry(node(first), node(first)));
       if (first + 1 == size) continue;
       Eigen::Array4d sum = cells[first];
       for (std::size_t last = first + 1; last < size; ++last) {
+        const auto width = static_cast<int>(last - first);
+        if (method == TableMethod::brute_force) {
+          set(first, last, finish(range(first, last), width));
+          set(last, first, finish(range(first, last), width));
+          continue;
+        }
         if (last > first + 1) sum = join(sum, cells[last - 1]);
-        const Eigen::Array4d value = finish(sum, static_cast<int>(last - first));
+        const Eigen::Array4d value = finish(sum, width);
         set(first, last, value);
         set(last, first, value);
       }
@@ -117,23 +128,23 @@ Table2D emission_table(const TransferFunction& tf, double low, double high, int 
     const Segment segment{front, back, 1};
     return rgba(integrate_emission(tf, segment), optical_depth(tf, segment));
   };
-  if (method == TableMethod::brute_force) return table_2d(low, high, n, mean);
+  if (method == TableMethod::exact) return table_2d(low, high, n, mean);
   // Sums, not differences of one running integral: all terms are positive, so nothing cancels.
   const auto join = [](const Eigen::Array4d& a, const Eigen::Array4d& b) { return (a + b).eval(); };
   const auto average = [](const Eigen::Array4d& sum, int cells) { return (sum / cells).eval(); };
-  return growing_ranges(low, high, n, mean, join, average);
+  return joined_cells(low, high, n, method, mean, join, average);
 }
 
 Table2D mip_table(const TransferFunction& tf, double low, double high, int n, TableMethod method) {
   const auto largest = [&](double front, double back) {
     return rgba(max_color(tf, front, back), 1);
   };
-  if (method == TableMethod::brute_force) return table_2d(low, high, n, largest);
+  if (method == TableMethod::exact) return table_2d(low, high, n, largest);
   const auto join = [](const Eigen::Array4d& a, const Eigen::Array4d& b) {
     return a.max(b).eval();
   };
   const auto itself = [](const Eigen::Array4d& largest_so_far, int) { return largest_so_far; };
-  return growing_ranges(low, high, n, largest, join, itself);
+  return joined_cells(low, high, n, method, largest, join, itself);
 }
 
 Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high, int n) {

@@ -71,14 +71,16 @@ struct Table3D {
 // Each of the following throws UsageError for n or m below 2, a range that is not low < high, or a
 // length that is not positive.
 
-/// How a table is filled. Both ways integrate to 1e-9, below the rounding of a float entry. (The
+/// How a table is filled. All ways integrate to 1e-9, below the rounding of a float entry. (The
 /// algorithms themselves hold 1e-12, plus the rounding of the axis' samples relative to their
 /// spacing.)
 enum class TableMethod {
   incremental,  ///< from its neighbours: a constant number of operations per entry (full model:
                 ///< lum2004, incremental subrange integration)
-  brute_force,  ///< every entry integrated on its own: as many pieces as control points lie between
-                ///< its ends
+  brute_force,  ///< every entry on its own, over all cells of the axis between its ends, each
+                ///< integrated numerically: proportional to their number, whatever the function
+  exact,        ///< every entry on its own, split at the control points only: proportional to the
+                ///< number of these between its ends
 };
 
 /// Emission per unit length (RGB) and mean extinction (A).

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
-#include "preint/incremental.h"
 #include "preint/segment_integral.h"
 #include "preint/table.h"
+#include "preint/table_entries.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -48,7 +48,16 @@ std::vector<NamedMedium> media() {
   };
 }
 
-TEST(FullTable, IncrementalIsBruteForceInDouble) {
+using MethodCase = testing::TestWithParam<TableMethod>;
+
+INSTANTIATE_TEST_SUITE_P(FullTable, MethodCase,
+                         testing::Values(TableMethod::incremental, TableMethod::brute_force),
+                         [](const auto& method) {
+                           return method.param == TableMethod::incremental ? "incremental"
+                                                                           : "brute_force";
+                         });
+
+TEST_P(MethodCase, IsTheIntegralInDouble) {
   for (const NamedMedium& medium : media()) {
     for (const int n : {2, 3, 7, 33, 100}) {
       for (const double length : {0.0, 1e-8, 0.3, 20.0}) {
@@ -67,8 +76,8 @@ TEST(FullTable, IncrementalIsBruteForceInDouble) {
           ++written[static_cast<std::size_t>(b * n + f)];
           worst = std::max(worst, error);
         };
-        incremental_entries<LightSpan>(medium.tf, medium.low, medium.high, n, {length}, kFinest,
-                                       check);
+        table_entries<LightSpan>(medium.tf, medium.low, medium.high, n, {length}, kFinest,
+                                 GetParam(), check);
         // The samples of the axis are rounded; the incremental form takes them for exactly equally
         // spaced. Lengths that are wrong by a relative delta change the light by at most delta
         // max(tau exp(-tau)) < delta.
@@ -89,17 +98,18 @@ TEST(FullTable, MethodsAgreeInFloat) {
       for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
       return worst;
     };
-    const Table2D slow =
-        slab_table(medium.tf, medium.low, medium.high, 0.7, 61, TableMethod::brute_force);
-    const Table2D fast = slab_table(medium.tf, medium.low, medium.high, 0.7, 61);
-    ASSERT_EQ(slow.rgba.size(), 4U * 61 * 61);
-    ASSERT_EQ(fast.rgba.size(), slow.rgba.size());
-    EXPECT_LE(difference(slow.rgba, fast.rgba), 2e-7F);
-    const Table3D slow3 =
-        full_table(medium.tf, medium.low, medium.high, 2, 23, 5, TableMethod::brute_force);
-    const Table3D fast3 = full_table(medium.tf, medium.low, medium.high, 2, 23, 5);
-    ASSERT_EQ(fast3.rgba.size(), 4U * 23 * 23 * 5);
-    EXPECT_LE(difference(slow3.rgba, fast3.rgba), 2e-7F);
+    const auto slab = [&](TableMethod method) {
+      return slab_table(medium.tf, medium.low, medium.high, 0.7, 61, method).rgba;
+    };
+    const auto full = [&](TableMethod method) {
+      return full_table(medium.tf, medium.low, medium.high, 2, 23, 5, method).rgba;
+    };
+    ASSERT_EQ(slab(TableMethod::exact).size(), 4U * 61 * 61);
+    ASSERT_EQ(full(TableMethod::exact).size(), 4U * 23 * 23 * 5);
+    for (const auto method : {TableMethod::incremental, TableMethod::brute_force}) {
+      EXPECT_LE(difference(slab(TableMethod::exact), slab(method)), 2e-7F);
+      EXPECT_LE(difference(full(TableMethod::exact), full(method)), 2e-7F);
+    }
   }
 }
 
@@ -107,7 +117,7 @@ TEST(FullTable, EntriesOf3DAreTheIntegrals) {
   constexpr int kN = 9, kM = 5;
   constexpr double kLongest = 3;
   const NamedMedium medium = media()[5];
-  const Table3D table = full_table(medium.tf, -1, 1, kLongest, kN, kM, TableMethod::brute_force);
+  const Table3D table = full_table(medium.tf, -1, 1, kLongest, kN, kM, TableMethod::exact);
   ASSERT_EQ(table.rgba.size(), 4U * kN * kN * kM);
   for (int l = 0; l < kM; ++l) {
     for (int b = 0; b < kN; ++b) {

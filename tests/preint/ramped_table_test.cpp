@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "preint/incremental.h"
+#include "preint/table_entries.h"
 #include "tests/preint/media.h"
 
 namespace tetraglass::preint {
@@ -85,14 +85,23 @@ TEST(RampedIntegral, ConstantMedium) {
   }
 }
 
-TEST(RampedTables, IncrementalIsBruteForceInDouble) {
+using RampedMethod = testing::TestWithParam<TableMethod>;
+
+INSTANTIATE_TEST_SUITE_P(RampedTables, RampedMethod,
+                         testing::Values(TableMethod::incremental, TableMethod::brute_force),
+                         [](const auto& method) {
+                           return method.param == TableMethod::incremental ? "incremental"
+                                                                           : "brute_force";
+                         });
+
+TEST_P(RampedMethod, IsTheIntegralInDouble) {
   for (const int n : {2, 3, 7, 100}) {
     for (const double length : {0.0, 1e-10, 0.3, 20.0}) {
       SCOPED_TRACE(testing::Message() << "n " << n << " length " << length);
       double worst = 0, worst_relative = 0;
       std::mutex mutex;
-      incremental_entries<RampedSpan>(
-          kMedium, 0, 1, n, {length}, kFinest,
+      table_entries<RampedSpan>(
+          kMedium, 0, 1, n, {length}, kFinest, GetParam(),
           [&](std::size_t, int f, int b, const RampedSpan& span, int cells) {
             const Segment s{table_node(0, 1, n, f), table_node(0, 1, n, b), length};
             const RampedRadiance r = integrate_ramped(kMedium, s);
