@@ -34,6 +34,9 @@ class CellProjector {
   /// and size do not matter.
   [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
 
+  /// What the cells take on the context.
+  [[nodiscard]] std::size_t bytes() const { return cells_->bytes(); }
+
  private:
   [[nodiscard]] const Program& program(bool parallel);
   void make_tables(Stats& stats);

@@ -1,0 +1,219 @@
+// The layouts of project/gl side by side: what each costs (the data sets and columns of weiler2002,
+// Tables 1 to 3) and how wrong its pictures are. Prints Markdown.
+//   gl_layouts [FRAMES] [osmesa|egl]
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "mesh/import.h"
+#include "mesh/samples.h"
+#include "preint/transfer_function.h"
+#include "project/gl/cell_layout.h"
+#include "project/gl/cell_projector.h"
+
+namespace {
+
+using namespace tetraglass;
+using project::GlRequest;
+using project::Layout;
+using project::Minimum;
+using project::Mode;
+
+constexpr int kSize = 512;
+
+struct Variant {
+  std::string name;
+  GlRequest request;
+};
+
+Variant variant(const std::string& name, Layout layout, std::optional<bool> edge_fix = {},
+                std::optional<Minimum> minimum = {}, std::optional<bool> interpolate = {}) {
+  Variant result{name, {}};
+  result.request.layout = layout;
+  result.request.edge_fix = edge_fix;
+  result.request.minimum = minimum;
+  result.request.interpolate_lengths = interpolate;
+  return result;
+}
+
+project::Scene make_scene(const mesh::TetMesh& mesh, Mode mode) {
+  project::Scene scene;
+  scene.mesh = &mesh;
+  scene.field = mesh::select_scalar(mesh, "");
+  scene.drawable = mesh::find_drawable(mesh, scene.field);
+  scene.transfer_function = preint::preset("viridis", scene.field.min, scene.field.max,
+                                           mesh::bounds(mesh).diagonal().norm());
+  scene.mode = mode;
+  scene.camera = project::frame_camera(mesh.points, Eigen::Vector3d(1, 0.8, 0.6),
+                                       Eigen::Vector3d::UnitZ(), 30, 1);
+  scene.width = scene.height = kSize;
+  return scene;
+}
+
+project::Plan plan_of(const project::Scene& scene, const GlRequest& request,
+                      project::ContextKind context) {
+  project::Request all;
+  all.projector = project::Projector::gl;
+  all.context = context;
+  all.gl = request;
+  // As in the paper: a two-dimensional table of the emission.
+  if (scene.mode == Mode::emission) all.integrator = project::Integrator::table2d;
+  return project::plan(scene, all);
+}
+
+// The camera turned by a part of a full turn around the mesh's vertical axis.
+project::Camera turned(const project::Camera& camera, double part) {
+  project::Camera result = camera;
+  const Eigen::AngleAxisd turn(2 * 3.141592653589793 * part, Eigen::Vector3d::UnitZ());
+  result.eye = camera.target + turn * (camera.eye - camera.target);
+  return result;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Data {
+  std::string name;
+  std::string published;  // weiler2002: K cells/s of Table 1 (GeForce3), Table 3 (GeForce4, shorts)
+  mesh::TetMesh mesh;
+};
+
+std::vector<Data> data_sets() {
+  std::vector<Data> sets;
+  const char* folder = std::getenv("TETRAGLASS_DATA");
+  const std::filesystem::path file =
+      std::filesystem::path(folder != nullptr ? folder : "../shared/data") /
+      "classics/bluntfinxyz.bin";
+  if (std::filesystem::exists(file)) {
+    sets.push_back({"blunt fin", "242 / 479", mesh::import_mesh(file.string()).mesh});
+  } else {
+    fmt::print(stderr, "no {}: the blunt fin is left out (TETRAGLASS_DATA names its folder)\n",
+               file.string());
+  }
+  sets.push_back({"heat sink", "244 / 464", mesh::make_sample("heat-sink")});
+  sets.push_back({"orbital", "245 / 481", mesh::make_sample("orbital")});
+  sets.push_back({"sphere", "245 / 481", mesh::make_sample("sphere")});
+  return sets;
+}
+
+void print_costs(project::ContextKind kind, int frames) {
+  const std::vector<Variant> variants = {
+      variant("faces12", Layout::faces12), variant("faces12-short", Layout::faces12_short),
+      variant("strip", Layout::strip), variant("indexed", Layout::indexed)};
+  fmt::print(
+      "| data set | layout | cells | MB | frames/s | K cells/s | MB/s | published K cells/s |\n"
+      "|---|---|---:|---:|---:|---:|---:|---|\n");
+  for (const Data& data : data_sets()) {
+    const project::Scene scene = make_scene(data.mesh, Mode::emission);
+    const std::unique_ptr<project::gl::Context> context = project::gl::Context::create(kind);
+    std::vector<std::unique_ptr<project::gl::CellProjector>> projectors;
+    std::vector<std::vector<double>> times(variants.size());
+    project::Stats stats;
+    for (const Variant& v : variants) {
+      projectors.push_back(std::make_unique<project::gl::CellProjector>(
+          *context, scene, plan_of(scene, v.request, kind), stats));
+    }
+    // Interleaved, so that a slow moment of the machine meets all of them; the first frame
+    // compiles.
+    for (int frame = 0; frame <= frames; ++frame) {
+      const project::Frame view(turned(scene.camera, double(frame) / (frames + 1)), kSize, kSize);
+      for (std::size_t i = 0; i < variants.size(); ++i) {
+        const base::Stopwatch clock;
+        (void)projectors[i]->draw(view, stats);
+        if (frame > 0) times[i].push_back(clock.milliseconds());
+      }
+    }
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const double seconds = median(times[i]) / 1000;
+      const double cells = double(scene.drawable.cells.size());
+      const double megabytes = double(projectors[i]->bytes()) / 1e6;
+      fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} | {} |\n", data.name,
+                 variants[i].name, scene.drawable.cells.size(), megabytes, 1 / seconds,
+                 cells / seconds / 1000, megabytes / seconds, data.published);
+    }
+  }
+}
+
+// Against the layout by planes, which the tests hold to the reference.
+void print_errors(project::ContextKind kind) {
+  const std::vector<Variant> variants = {
+      variant("faces12", Layout::faces12),
+      variant("faces12, no edge fix", Layout::faces12, false),
+      variant("faces12, 16-bit minimum texture", Layout::faces12, true, Minimum::texture16),
+      variant("faces12, 8-bit minimum texture", Layout::faces12, true, Minimum::texture8),
+      variant("faces12-short", Layout::faces12_short),
+      variant("faces12, lengths interpolated", Layout::faces12, true, Minimum::shader, true),
+      variant("strip", Layout::strip)};
+  fmt::print(
+      "\n| thickness, sphere | parallel: bad pixels | largest | RMS | perspective: bad pixels | "
+      "largest | RMS |\n|---|---:|---:|---:|---:|---:|---:|\n");
+  const mesh::TetMesh mesh = mesh::make_sample("sphere");
+  project::Scene scene = make_scene(mesh, Mode::thickness);
+  const std::unique_ptr<project::gl::Context> context = project::gl::Context::create(kind);
+  project::Stats stats;
+  const auto draw = [&](const GlRequest& request) {
+    const project::Plan plan = plan_of(scene, request, kind);
+    return project::gl::CellProjector(*context, scene, plan, stats)
+        .draw(project::Frame(scene.camera, kSize, kSize), stats);
+  };
+  std::vector<std::string> lines;
+  for (const Variant& v : variants) lines.push_back("| " + v.name);
+  for (const bool parallel : {true, false}) {
+    scene.camera.parallel = parallel;
+    const project::Image expected = draw({});
+    double most = 0;
+    for (std::size_t p = 0; p < expected.rgba.size(); p += 4) {
+      most = std::max<double>(most, expected.rgba[p]);
+    }
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      if (parallel && variants[i].request.interpolate_lengths == true) {
+        lines[i] += " | as faces12 | | ";
+        continue;
+      }
+      const project::Image image = draw(variants[i].request);
+      int bad = 0;
+      double largest = 0;
+      double squares = 0;
+      for (std::size_t p = 0; p < image.rgba.size(); p += 4) {
+        const double error = std::abs(double{image.rgba[p]} - expected.rgba[p]) / most;
+        bad += error > 1e-3 ? 1 : 0;
+        largest = std::max(largest, error);
+        squares += error * error;
+      }
+      lines[i] += fmt::format(" | {} | {:.1e} | {:.1e}", bad, largest,
+                              std::sqrt(squares / (kSize * kSize)));
+    }
+  }
+  for (const std::string& line : lines) fmt::print("{} |\n", line);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int frames = argc > 1 ? std::max(1, std::atoi(argv[1])) : 5;
+  const bool egl = argc > 2 && std::string(argv[2]) == "egl";
+  const project::ContextKind kind = egl ? project::ContextKind::egl : project::ContextKind::osmesa;
+  try {
+    fmt::print("{}, {} x {} pixels, medians of {} frames of a turning camera\n\n",
+               project::gl::Context::create(kind)->description(), kSize, kSize, frames);
+    print_costs(kind, frames);
+    print_errors(kind);
+  } catch (const base::Error& error) {
+    fmt::print(stderr, "gl_layouts: error: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
