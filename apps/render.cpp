@@ -190,9 +190,10 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
       ->capture_default_str();
   app->add_option("--sort", a.sort, "auto | none | centroid | fragments (reference)")
       ->capture_default_str();
-  app->add_option(
-         "--integrator", a.integrator,
-         "auto | exact (no table) | table2d (emission, absorption, mip, iso) | table3d (full)")
+  app->add_option("--integrator", a.integrator,
+                  "auto | exact (no table) | table2d (emission, absorption, mip, iso) | table3d "
+                  "(full) | psi "
+                  "(full) | linear (the ends of a segment only)")
       ->capture_default_str();
   app->add_option("--table", a.table, "N[xM], values and lengths of the table");
   app->add_option("--layout", a.layout,

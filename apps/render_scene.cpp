@@ -257,7 +257,9 @@ project::Request make_request(const RenderArguments& arguments) {
                                                                {{"auto", std::nullopt},
                                                                 {"exact", Integrator::exact},
                                                                 {"table2d", Integrator::table2d},
-                                                                {"table3d", Integrator::table3d}});
+                                                                {"table3d", Integrator::table3d},
+                                                                {"psi", Integrator::psi},
+                                                                {"linear", Integrator::linear}});
   request.gl = make_gl_request(arguments);
   if (!arguments.table.empty()) {
     const std::size_t cross = arguments.table.find('x');

@@ -51,6 +51,27 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
                                                        : "blends cells back to front"));
 }
 
+void plan_linear(const Scene& scene, const Request& request, Plan& plan) {
+  if (scene.mode == Mode::iso || scene.mode == Mode::mip) {
+    throw base::UsageError("--integrator linear is for the modes full, emission and absorption");
+  }
+  if (request.table_n != 0) throw base::UsageError("--integrator linear has no table");
+  plan.reasons.emplace_back(
+      "integrator: linear, from the ends of a segment alone: misses what lies between");
+}
+
+void plan_psi(const Scene& scene, const Request& request, Plan& plan) {
+  if (scene.mode != Mode::full) throw base::UsageError("--integrator psi is for mode full");
+  plan.table_n = request.table_n != 0 ? request.table_n : kTable2dSize;
+  if (plan.table_n < 2 || plan.table_n > kLargestTable2d || request.table_m != 0) {
+    throw base::UsageError(
+        fmt::format("--integrator psi has a table of N x N, N from 2 to {}", kLargestTable2d));
+  }
+  plan.reasons.push_back(fmt::format(
+      "integrator: psi, a table of {0} x {0} optical depths for every transfer function",
+      plan.table_n));
+}
+
 void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
   if (!needs_integral(scene)) {
     if (request.integrator && *request.integrator != Integrator::exact) {
@@ -71,6 +92,14 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
   if (plan.projector == Projector::reference) {
     throw base::UsageError(
         "the reference projector integrates exactly; tables need --projector gl");
+  }
+  if (plan.integrator == Integrator::linear) {
+    plan_linear(scene, request, plan);
+    return;
+  }
+  if (plan.integrator == Integrator::psi) {
+    plan_psi(scene, request, plan);
+    return;
   }
   const bool wants_3d = scene.mode == Mode::full;
   if (wants_3d != (plan.integrator == Integrator::table3d)) {
@@ -179,6 +208,10 @@ std::string to_string(Integrator integrator) {
       return "table2d";
     case Integrator::table3d:
       return "table3d";
+    case Integrator::psi:
+      return "psi";
+    case Integrator::linear:
+      return "linear";
   }
   return "";
 }

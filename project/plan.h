@@ -11,7 +11,13 @@ namespace tetraglass::project {
 
 enum class Projector { reference, gl, cpu };
 enum class SortMethod { none, centroid, fragments };
-enum class Integrator { exact, table2d, table3d };
+enum class Integrator {
+  exact,
+  table2d,
+  table3d,
+  psi,    ///< partial pre-integration (Moreland and Angel, 2004)
+  linear  ///< from the values at the ends of a segment alone, as most renderers do
+};
 enum class ContextKind { none, osmesa, egl };
 
 /// What the user forced; what is not set is chosen by `plan`.

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
+#include "preint/psi_table.h"
 #include "preint/table.h"
 #include "project/gl/functions.inl"
 #include "project/gl/switches.h"
@@ -104,8 +105,14 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
 }
 
 void CellProjector::make_tables(Stats& stats) {
-  if (plan_.integrator == Integrator::exact) return;
+  if (plan_.integrator == Integrator::exact || plan_.integrator == Integrator::linear) return;
   const base::Stopwatch clock;
+  if (plan_.integrator == Integrator::psi) {
+    const preint::PsiTable table = preint::psi_table(plan_.table_n);
+    table_.emplace(context_, Texel::r32f, std::array<int, 3>{table.n, table.n, 0}, table.psi, true);
+    stats.tables_ms += clock.milliseconds();
+    return;
+  }
   const double low = normalization_.field_value(-1);
   const double high = normalization_.field_value(1);
   const double radius = normalization_.radius;

@@ -35,9 +35,21 @@ float part_of(float from, float to, float low, float high) {
   return high > low ? (to - from) / (high - low) : 1.0;
 }
 
+#ifdef LINEAR
+vec4 medium_at(float s) {
+  int index = piece_above(s);
+  return medium_between(index, s, s).front;
+}
+#endif
+
 #ifdef MODE_EMISSION
 // int kappa c: exact, the integrand is quadratic on every piece.
 vec3 emission(float front, float back, float size) {
+#ifdef LINEAR
+  vec4 a = medium_at(front);
+  vec4 b = medium_at(back);
+  return 0.5 * size * (a.a * a.rgb + b.a * b.rgb);
+#else
   float low = min(front, back);
   float high = max(front, back);
   vec3 sum = vec3(0);
@@ -51,12 +63,16 @@ vec3 emission(float front, float back, float size) {
     from = to;
   }
   return sum * size;
+#endif
 }
 #endif
 
 #ifdef MODE_ABSORPTION
 // int kappa: exact.
 float optical_depth(float front, float back, float size) {
+#ifdef LINEAR
+  return 0.5 * size * (medium_at(front).a + medium_at(back).a);
+#else
   float low = min(front, back);
   float high = max(front, back);
   float sum = 0;
@@ -69,6 +85,7 @@ float optical_depth(float front, float back, float size) {
     from = to;
   }
   return sum * size;
+#endif
 }
 #endif
 
@@ -89,11 +106,21 @@ vec3 largest_color(float front, float back) {
 #endif
 
 #ifdef MODE_FULL
+#ifdef PSI
+#include "psi.glsl"
+#elif !defined(LINEAR)
 #include "model.glsl"
+#endif
 
 // Associated color and opacity. Pieces are met in the order of rising values, which is front to back or
 // back to front.
 vec4 radiance(float front, float back, float size) {
+#ifdef LINEAR
+  vec4 a = medium_at(front);
+  vec4 b = medium_at(back);
+  float opacity = 1 - exp(-0.5 * size * (a.a + b.a));
+  return vec4(opacity * 0.5 * (a.rgb + b.rgb), opacity);
+#else
   float low = min(front, back);
   float high = max(front, back);
   bool rising = front <= back;
@@ -108,5 +135,6 @@ vec4 radiance(float front, float back, float size) {
     from = to;
   }
   return sum;
+#endif
 }
 #endif

@@ -36,8 +36,10 @@ bool has_scalar_target(const Scene& scene) {
 }
 
 bool reads_medium(const Scene& scene, const Plan& plan) {
-  return plan.integrator == Integrator::exact && scene.mode != Mode::thickness &&
-         scene.mode != Mode::iso && !is_field_maximum(scene);
+  const bool tabulated =
+      plan.integrator == Integrator::table2d || plan.integrator == Integrator::table3d;
+  return !tabulated && scene.mode != Mode::thickness && scene.mode != Mode::iso &&
+         !is_field_maximum(scene);
 }
 
 std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, bool parallel) {
@@ -53,6 +55,8 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
   }
   if (plan.integrator == Integrator::table2d) names.emplace_back("TABLE_2D");
   if (plan.integrator == Integrator::table3d) names.emplace_back("TABLE_3D");
+  if (plan.integrator == Integrator::psi) names.emplace_back("PSI");
+  if (plan.integrator == Integrator::linear) names.emplace_back("LINEAR");
   if (scene.mode == Mode::iso) {
     if (draws_opaque_surfaces(scene)) names.emplace_back("OPAQUE");
     if (scene.shading == Shading::flat) names.emplace_back("SHADING_FLAT");

@@ -281,6 +281,60 @@ TEST(Gl, TablesComeNearTheExactIntegral) {
   EXPECT_LT(different, 60);
 }
 
+// Partial pre-integration knows nothing of the transfer function, so its error does not depend on
+// peaks and falls with the square of the table's size; from the ends of a segment alone a peak is
+// missed.
+TEST(Gl, PsiIsAccurateWhereTheEndsOfASegmentAreNotEnough) {
+  const mesh::TetMesh mesh = box_mesh([](const auto& p) { return p.norm(); }, 5);
+  const preint::TransferFunction peaks({{0, {1, 0, 0}, 0.1},
+                                        {1.0, {1, 0, 0}, 0.1},
+                                        {1.02, {1, 1, 1}, 8},
+                                        {1.04, {0, 0, 1}, 0.1},
+                                        {2.5, {0, 0, 1}, 1}});
+  Scene scene = make_scene(mesh, Mode::full, peaks, 40);
+  const Image exact = draw(scene);
+  const auto error = [&](const Image& image) {
+    double squares = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+      const double e = double{image.rgba[i]} - exact.rgba[i];
+      squares += e * e;
+    }
+    return std::sqrt(squares / static_cast<double>(image.rgba.size()));
+  };
+  const double coarse = error(draw_table(scene, Integrator::psi, 65));
+  const double fine = error(draw_table(scene, Integrator::psi, 257));
+  EXPECT_LT(fine, 1e-4);
+  EXPECT_GT(coarse, 8 * fine) << "expected 16 times";
+  Request ends;
+  ends.integrator = Integrator::linear;
+  EXPECT_GT(error(draw(scene, ends)), 100 * fine);
+}
+
+// On one linear piece the two agree to the order of the segments' length.
+TEST(Gl, LinearIntegratorIsRightForThinSegments) {
+  const preint::TransferFunction tf({{-2, {1, 0, 0.2}, 0.1}, {3, {0, 1, 0.4}, 0.6}});
+  double last = 0;
+  for (const int n : {4, 8, 16}) {
+    const mesh::TetMesh mesh = box_mesh([](const auto& p) { return p.z(); }, n);
+    Request ends;
+    ends.integrator = Integrator::linear;
+    double largest = 0;
+    for (const Mode mode : {Mode::full, Mode::emission}) {
+      const Scene scene = make_scene(mesh, mode, tf, 32);
+      const Image exact = draw(scene);
+      const Image image = draw(scene, ends);
+      for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        largest = std::max(largest, std::abs(double{image.rgba[i]} - exact.rgba[i]));
+      }
+    }
+    if (last > 0) {
+      EXPECT_LT(largest, last / 3) << "second order: a quarter for half the length";
+    }
+    last = largest;
+  }
+  EXPECT_LT(last, 1e-3);
+}
+
 TEST(Gl, MaximumIsThatOfTheRay) {
   const preint::TransferFunction tf(
       {{-2, {0, 1, 0}, 1}, {0, {0, 0.25, 0}, 1}, {2, {1, 0.5, 0}, 1}});

@@ -53,6 +53,13 @@ TEST_F(PlanTest, TablesHaveTheDimensionOfTheMode) {
   EXPECT_GT(emission.table_n, 1);
   EXPECT_EQ(emission.table_m, 0);
   EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError);
+  request.integrator = Integrator::psi;
+  EXPECT_THROW((void)plan(scene(Mode::emission), request), base::UsageError);
+  EXPECT_GT(plan(scene(Mode::full), request).table_n, 1);
+  request.integrator = Integrator::linear;
+  EXPECT_THROW((void)plan(scene(Mode::mip), request), base::UsageError);
+  EXPECT_EQ(plan(scene(Mode::full), request).table_n, 0);
+  request.integrator = Integrator::table2d;
   request.table_n = 1 << 20;
   EXPECT_THROW((void)plan(scene(Mode::emission), request), base::UsageError);
 }
