@@ -82,14 +82,7 @@ Table2D slab_table(const TransferFunction& tf, double low, double high, double l
 Table3D full_table(const TransferFunction& tf, double low, double high, double max_length, int n,
                    int m, TableMethod method, LengthAxis axis) {
   check_axis(low, high, n);
-  if (m < 2) throw base::UsageError(fmt::format("a table needs at least 2 lengths, not {}", m));
-  if (!(max_length > 0) || !std::isfinite(max_length)) {
-    throw base::UsageError(fmt::format("the longest length must be positive, not {}", max_length));
-  }
-  std::vector<double> lengths(static_cast<std::size_t>(m));
-  for (int l = 0; l < m; ++l) {
-    lengths[static_cast<std::size_t>(l)] = length_at(axis, max_length, m, l);
-  }
+  const std::vector<double> lengths = table_lengths(axis, max_length, m);
   return {n, m, low, high, max_length, full_entries(tf, low, high, n, lengths, method), axis, {}};
 }
 

@@ -19,6 +19,16 @@ struct RampedTables {
                                          double length, int n,
                                          TableMethod method = TableMethod::incremental);
 
+/// The same for m lengths from 0 to `max_length`, as in `full_table`.
+struct RampedTables3D {
+  Table3D front;
+  Table3D back;
+};
+[[nodiscard]] RampedTables3D ramped_tables_3d(const TransferFunction& tf, double low, double high,
+                                              double max_length, int n, int m,
+                                              TableMethod method = TableMethod::incremental,
+                                              LengthAxis axis = LengthAxis::linear);
+
 /// Averages over segments of one length, weighted by how visible each place is from the front
 /// (meissner2002 section 4; the print of its Eqs. 3, 5 and 6 lacks the opacity of the contributing
 /// sample and the normalization): int f kappa exp(-tau) dl / int kappa exp(-tau) dl. RGB: ambient,
@@ -28,5 +38,12 @@ struct RampedTables {
 [[nodiscard]] Table2D material_table(const TransferFunction& tf, double low, double high,
                                      double length, int n,
                                      TableMethod method = TableMethod::incremental);
+
+/// The same for m lengths from 0 to `max_length`, as in `full_table`; the entries of length 0 are
+/// the limit for short segments.
+[[nodiscard]] Table3D material_table_3d(const TransferFunction& tf, double low, double high,
+                                        double max_length, int n, int m,
+                                        TableMethod method = TableMethod::incremental,
+                                        LengthAxis axis = LengthAxis::linear);
 
 }  // namespace tetraglass::preint

@@ -1,5 +1,6 @@
 #include "preint/table.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -98,6 +99,16 @@ void check_length(double length) {
   }
 }
 
+std::vector<double> table_lengths(LengthAxis axis, double max_length, int m) {
+  if (m < 2) throw base::UsageError(fmt::format("a table needs at least 2 lengths, not {}", m));
+  if (!(max_length > 0) || !std::isfinite(max_length)) {
+    throw base::UsageError(fmt::format("the longest length must be positive, not {}", max_length));
+  }
+  std::vector<double> lengths;
+  for (int l = 0; l < m; ++l) lengths.push_back(length_at(axis, max_length, m, l));
+  return lengths;
+}
+
 double table_node(double low, double high, int n, int i) {
   const double t = static_cast<double>(i) / (n - 1);
   return low * (1 - t) + high * t;
@@ -135,7 +146,14 @@ Table2D emission_table(const TransferFunction& tf, double low, double high, int 
   return joined_cells(low, high, n, method, mean, join, average);
 }
 
-Table2D mip_table(const TransferFunction& tf, double low, double high, int n, TableMethod method) {
+Table2D mip_table(const TransferFunction& tf, double low, double high, int n, TableMethod method,
+                  MipOf of) {
+  if (of == MipOf::field) {
+    // The largest value of a linear segment is at one of its ends: nothing to integrate.
+    return table_2d(low, high, n, [&](double front, double back) {
+      return rgba(tf.at(std::max(front, back)).color, 1);
+    });
+  }
   const auto largest = [&](double front, double back) {
     return rgba(max_color(tf, front, back), 1);
   };
@@ -145,18 +163,6 @@ Table2D mip_table(const TransferFunction& tf, double low, double high, int n, Ta
   };
   const auto itself = [](const Eigen::Array4d& largest_so_far, int) { return largest_so_far; };
   return joined_cells(low, high, n, method, largest, join, itself);
-}
-
-Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high, int n) {
-  return table_2d(low, high, n, [&](double front, double back) {
-    Color color = Color::Zero();
-    double transmittance = 1;
-    for (const std::size_t i : crossed(surfaces, front, back)) {
-      color += transmittance * surfaces[i].opacity * surfaces[i].color;
-      transmittance *= 1 - surfaces[i].opacity;
-    }
-    return rgba(color, 1 - transmittance);
-  });
 }
 
 }  // namespace tetraglass::preint

@@ -83,18 +83,31 @@ enum class TableMethod {
                 ///< number of these between its ends
 };
 
-/// Emission per unit length (RGB) and mean extinction (A).
+/// Emission per unit length (RGB) and mean extinction (A): times the length, the emission and the
+/// optical depth of a segment. Modes `emission` and `absorption`.
 [[nodiscard]] Table2D emission_table(const TransferFunction& tf, double low, double high, int n,
                                      TableMethod method = TableMethod::incremental);
 
-/// Channel-wise largest color between the two values (RGB); A = 1.
+/// Maximum intensity projection: the largest what?
+enum class MipOf {
+  field,     ///< the color of the largest value
+  transfer,  ///< the channel-wise largest color of the values in between (weiler2002 section 5.1)
+};
+
+/// The color of the maximum between the two values (RGB); A = 1. That of the field is at one of the
+/// ends, whatever the method.
 [[nodiscard]] Table2D mip_table(const TransferFunction& tf, double low, double high, int n,
-                                TableMethod method = TableMethod::incremental);
+                                TableMethod method = TableMethod::incremental,
+                                MipOf of = MipOf::transfer);
 
 /// Color (RGB, associated) and opacity (A) of the isosurfaces crossed, composited nearest first; 0
-/// where there is none (weiler2002 Fig. 10). Brute force. Look it up without interpolation.
+/// where there is none (weiler2002 Fig. 10). Look it up without interpolation. A segment crosses a
+/// surface as `crosses` says (isosurfaces.h), or with a positive `thickening` where it meets any
+/// value within that distance of the isovalue: the paper's way to close gaps between cells that are
+/// looked up separately (one step of the table, (high - low) / (n - 1), closes them).
 [[nodiscard]] Table2D iso_table(const std::vector<Isosurface>& surfaces, double low, double high,
-                                int n);
+                                int n, double thickening = 0,
+                                TableMethod method = TableMethod::incremental);
 
 /// The full model of segments of one length (slabs between parallel slices, lum2004): associated
 /// color (RGB) and opacity (A). Where front = back, the constant medium. In parallel.

@@ -175,6 +175,48 @@ TEST(MaterialTable, MeetsTheNormalizedSums) {
   }
 }
 
+TEST(RampedTables, SlicesOf3DAreTablesOfOneLength) {
+  constexpr int kN = 13, kM = 5;
+  for (const auto axis : {LengthAxis::linear, LengthAxis::logarithmic}) {
+    for (const auto method :
+         {TableMethod::incremental, TableMethod::brute_force, TableMethod::exact}) {
+      const RampedTables3D tables = ramped_tables_3d(kMedium, 0, 1, 2, kN, kM, method, axis);
+      const Table3D materials = material_table_3d(kMedium, 0, 1, 2, kN, kM, method, axis);
+      for (int l = 1; l < kM; ++l) {
+        const double length = length_at(axis, 2, kM, l);
+        const RampedTables slice = ramped_tables(kMedium, 0, 1, length, kN);
+        const Table2D material = material_table(kMedium, 0, 1, length, kN);
+        for (std::size_t i = 0; i < slice.front.rgba.size(); ++i) {
+          const std::size_t at = static_cast<std::size_t>(l) * slice.front.rgba.size() + i;
+          ASSERT_NEAR(tables.front.rgba[at], slice.front.rgba[i], 2e-7);
+          ASSERT_NEAR(tables.back.rgba[at], slice.back.rgba[i], 2e-7);
+          ASSERT_NEAR(materials.rgba[at], material.rgba[i], 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(MaterialTable, LengthZeroIsTheLimitOfShortSegments) {
+  const Table3D table = material_table_3d(kMedium, 0, 1, 1, 9, 3);
+  const Table2D thin = material_table(kMedium, 0, 1, 1e-9, 9);
+  for (std::size_t i = 0; i < thin.rgba.size(); ++i) {
+    ASSERT_NEAR(table.rgba[i], thin.rgba[i], 1e-6) << i;
+  }
+}
+
+RC_GTEST_PROP(RampedIntegralProperty, WeightsOfAConstantMedium, ()) {
+  // Back weight: int_0^1 a x exp(-a x) dx / (1 - exp(-a)): 1/2 in the thin limit.
+  const double a = std::pow(10.0, -6 + 8 * *tests::unit());
+  const TransferFunction tf({{0, Color::Ones(), a}});
+  const RampedRadiance r = integrate_ramped(tf, {0, 1, 1});
+  const double weight = r.white_back / (r.white_front + r.white_back);
+  RC_ASSERT(weight >= 0 && weight <= 0.5 + 1e-15);
+  const long double exact =
+      1 / static_cast<long double>(a) - 1 / std::expm1(static_cast<long double>(a));
+  RC_ASSERT(std::abs(weight - static_cast<double>(exact)) <= 1e-12);
+}
+
 TEST(MaterialTable, ThinAndTransparentSegments) {
   // Thin: the mean position of the extinction itself. A ramp of the extinction from 0: 2/3;
   // downwards 1/3.

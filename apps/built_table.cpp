@@ -1,0 +1,184 @@
+#include "apps/built_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "preint/psi_table.h"
+#include "preint/ramped_table.h"
+#include "preint/segment_integral.h"
+
+namespace tetraglass::apps {
+namespace {
+
+using preint::TransferFunction;
+
+constexpr std::size_t kCheckedEntries = 65536;
+
+std::vector<double> rgba(const preint::Color& color, double alpha) {
+  return {color.x(), color.y(), color.z(), alpha};
+}
+
+std::vector<double> exact_full(const TableTask& task, const preint::Segment& segment) {
+  const preint::Radiance light = integrate_full(task.tf, segment);
+  return rgba(light.color, 1 - light.transmittance);
+}
+
+std::vector<double> exact_weighted(const TableTask& task, const preint::Segment& segment,
+                                   bool back) {
+  const preint::RampedRadiance light = integrate_ramped(task.tf, segment);
+  return back ? rgba(light.back, light.white_back) : rgba(light.front, 1 - light.transmittance);
+}
+
+std::vector<double> exact_material(const TableTask& task, preint::Segment segment) {
+  // The entries of length 0 are the limit for short segments.
+  if (segment.length == 0) segment.length = std::ldexp(task.length, -100);
+  const TransferFunction materials = materials_as_colors(task.tf);
+  const preint::RampedRadiance r = integrate_ramped(materials, segment);
+  const double opacity = r.white_front + r.white_back;
+  if (opacity > 0) return rgba((r.front + r.back) / opacity, r.white_back / opacity);
+  return rgba((materials.at(segment.front).color + materials.at(segment.back).color) / 2, 0.5);
+}
+
+std::vector<double> exact_iso(const TableTask& task, double front, double back) {
+  preint::Color color = preint::Color::Zero();
+  double transmittance = 1;
+  std::vector<preint::Isosurface> met = task.surfaces;
+  const bool rising = front < back;
+  std::stable_sort(met.begin(), met.end(), [&](const auto& a, const auto& b) {
+    return rising ? a.value < b.value : a.value > b.value;
+  });
+  for (const preint::Isosurface& surface : met) {
+    const double v = surface.value;
+    const bool near = std::min(front, back) <= v + task.thickening &&
+                      std::max(front, back) >= v - task.thickening;
+    if (task.thickening > 0 ? !near : !preint::crosses(front, back, v)) continue;
+    color += transmittance * surface.opacity * surface.color;
+    transmittance *= 1 - surface.opacity;
+  }
+  return rgba(color, 1 - transmittance);
+}
+
+double exact_psi(const TableTask& task, std::size_t front, std::size_t back) {
+  // gamma = k / (k + 1) at equal steps: k = gamma / (1 - gamma), infinite at the last sample.
+  const auto k = [&](std::size_t sample) {
+    const double gamma = static_cast<double>(sample) / static_cast<double>(task.n - 1);
+    return gamma / (1 - gamma);
+  };
+  return preint::psi(k(front), k(back));
+}
+
+/// The exact entry i: over (front, back), the lengths if there are several, and the two tables of
+/// the weighted kind.
+std::vector<double> exact_entry(const TableTask& task, std::size_t i) {
+  const auto n = static_cast<std::size_t>(task.n);
+  const auto node = [&](std::size_t k) {
+    return preint::table_node(task.low, task.high, task.n, static_cast<int>(k));
+  };
+  const double front = node(i % n);
+  const double back = node(i / n % n);
+  const auto lengths = static_cast<std::size_t>(std::max(task.m, 1));
+  const auto l = static_cast<double>(i / (n * n) % lengths);
+  const double length =
+      task.m == 0 ? task.length : preint::length_at(task.axis, task.length, task.m, l);
+  switch (task.kind) {
+    case TableKind::emission:
+      return rgba(integrate_emission(task.tf, {front, back, 1}),
+                  optical_depth(task.tf, {front, back, 1}));
+    case TableKind::mip:
+      return rgba(task.mip_of == preint::MipOf::field ? task.tf.at(std::max(front, back)).color
+                                                      : max_color(task.tf, front, back),
+                  1);
+    case TableKind::iso:
+      return exact_iso(task, front, back);
+    case TableKind::full2d:
+    case TableKind::full3d:
+      return exact_full(task, {front, back, length});
+    case TableKind::weighted:
+      return exact_weighted(task, {front, back, length}, i / (n * n * lengths) == 1);
+    case TableKind::material:
+      return exact_material(task, {front, back, length});
+    case TableKind::psi:
+      return {exact_psi(task, i % n, i / n)};
+  }
+  return {};
+}
+
+preint::Entries build_material(const TableTask& t) {
+  if (t.m > 0) {
+    return material_table_3d(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis).rgba;
+  }
+  return material_table(t.tf, t.low, t.high, t.length, t.n, t.method).rgba;
+}
+
+std::vector<preint::Entries> build_weighted(const TableTask& t) {
+  std::vector<preint::Entries> parts(2);
+  if (t.m > 0) {
+    auto tables = ramped_tables_3d(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis);
+    parts = {std::move(tables.front.rgba), std::move(tables.back.rgba)};
+  } else {
+    auto tables = ramped_tables(t.tf, t.low, t.high, t.length, t.n, t.method);
+    parts = {std::move(tables.front.rgba), std::move(tables.back.rgba)};
+  }
+  return parts;
+}
+
+std::vector<preint::Entries> build_entries(const TableTask& t) {
+  switch (t.kind) {
+    case TableKind::emission:
+      return {emission_table(t.tf, t.low, t.high, t.n, t.method).rgba};
+    case TableKind::mip:
+      return {mip_table(t.tf, t.low, t.high, t.n, t.method, t.mip_of).rgba};
+    case TableKind::iso:
+      return {iso_table(t.surfaces, t.low, t.high, t.n, t.thickening, t.method).rgba};
+    case TableKind::full2d:
+      return {slab_table(t.tf, t.low, t.high, t.length, t.n, t.method).rgba};
+    case TableKind::full3d:
+      return {full_table(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis).rgba};
+    case TableKind::weighted:
+      return build_weighted(t);
+    case TableKind::material:
+      return {build_material(t)};
+    case TableKind::psi: {
+      const preint::PsiTable table = preint::psi_table(t.n);
+      return {preint::Entries(table.psi.begin(), table.psi.end())};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+BuiltTable build(const TableTask& task) {
+  const auto n = static_cast<std::size_t>(task.n);
+  BuiltTable result;
+  result.parts = build_entries(task);
+  result.shape = {n, n};
+  if (task.m > 0) result.shape.insert(result.shape.begin(), static_cast<std::size_t>(task.m));
+  if (task.kind == TableKind::weighted) result.shape.insert(result.shape.begin(), 2);
+  if (task.kind == TableKind::psi) {
+    result.channels = 1;
+  } else {
+    result.shape.push_back(4);
+  }
+  return result;
+}
+
+double largest_error(const TableTask& task, const BuiltTable& table) {
+  const std::size_t entries = table.entries();
+  const std::size_t step =
+      entries <= kCheckedEntries ? 1 : (entries / kCheckedEntries) | 1U;  // odd: meets all rows
+  double largest = 0;
+  for (std::size_t i = 0; i < entries; i += step) {
+    const std::vector<double> expected = exact_entry(task, i);
+    const std::size_t at = i * table.channels;
+    const preint::Entries& part = table.parts[at / table.parts[0].size()];
+    for (std::size_t c = 0; c < table.channels; ++c) {
+      const double value = part[at % table.parts[0].size() + c];
+      largest = std::max(largest, std::abs(value - expected[c]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace tetraglass::apps
