@@ -7,6 +7,9 @@ namespace tetraglass::apps {
 
 void add_import_options(CLI::App& app, mesh::ImportOptions& options) {
   app.add_option("--time", options.time, "Time step: a time, 'last' (default) or 'index:N'");
+  app.add_flag("--refine-quadratic", options.refine_quadratic,
+               "Cut quadratic cells along the points on their edges, instead of drawing their "
+               "corners");
   app.add_option("--raw", options.raw,
                  "Layout of a file of bare values: WIDTHxHEIGHTxDEPTH:TYPE[:little|big]");
   app.add_flag("--repair", options.repair,

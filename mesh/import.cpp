@@ -15,6 +15,7 @@
 #include "mesh/decompose.h"
 #include "mesh/distance.h"
 #include "mesh/file_name.h"
+#include "mesh/linearize.h"
 #include "mesh/read_abaqus.h"
 #include "mesh/read_collection.h"
 #include "mesh/read_ensight.h"
@@ -163,8 +164,16 @@ Kind kind_of(const ImportReport& report, bool may_be_points) {
       report.input_cells.empty() ? "no cells" : "no cells that tetrahedra could be made of"));
 }
 
-TetMesh split_solids(const MeshData& data, ImportReport& report) {
-  Decomposition split = decompose(data);
+TetMesh split_solids(MeshData data, const ImportOptions& options, ImportReport& report) {
+  const Linearization linear = linearize(std::move(data), options.refine_quadratic);
+  if (linear.cut > 0) {
+    report.notes.push_back(fmt::format(
+        "{} cells of higher order are cut into {} linear ones along their points{}", linear.cut,
+        linear.pieces,
+        linear.added == 0 ? ""
+                          : fmt::format(" and {} added in the middle of sides", linear.added)));
+  }
+  Decomposition split = decompose(linear.mesh);
   report.skipped = split.skipped;
   report.inverted = split.inverted;
   const auto note = [&](std::size_t count, const char* what) {
@@ -191,11 +200,11 @@ TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std
   }
 }
 
-TetMesh make_tetrahedra(const MeshData& data, bool may_be_points, const ImportOptions& options,
+TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& options,
                         ImportReport& report) {
   switch (kind_of(report, may_be_points)) {
     case Kind::solids:
-      return split_solids(data, report);
+      return split_solids(std::move(data), options, report);
     case Kind::surface:
       return fill(data, options, report.notes);
     case Kind::points:
@@ -224,7 +233,7 @@ Import import_mesh(const std::string& file, const ImportOptions& options) {
     import.report.notes = std::move(data.notes);
     import.report.read_ms = clock.milliseconds();
     clock.restart();
-    import.mesh = make_tetrahedra(data, format.may_be_points, options, import.report);
+    import.mesh = make_tetrahedra(std::move(data), format.may_be_points, options, import.report);
     import.report.decompose_ms = clock.milliseconds();
     return import;
   } catch (const base::InputError& error) {

@@ -14,7 +14,8 @@ namespace tetraglass::mesh {
 /// How to turn a file into tetrahedra. The defaults suit a first look.
 struct ImportOptions {
   std::string time;  ///< "" or "last", a time value, or "index:N"; for files with time steps
-  std::string raw;   ///< the layout of a file of bare values, as `read_raw` wants it; "" for others
+  bool refine_quadratic = false;  ///< cut quadratic cells along all their points (`linearize`)
+  std::string raw;  ///< the layout of a file of bare values, as `read_raw` wants it; "" for others
   bool repair = false;  ///< mend surfaces before they are filled (repair_surface.h)
   double largest_hole = kUsualLargestHole;  ///< that a repair closes
 };

@@ -69,12 +69,12 @@ const std::vector<ElementShape>& element_shapes() {
   return kTable;
 }
 
-/// Solids with more nodes than are known above, of which the corners come first in any case.
+/// Solids with more nodes than are known above: those on the edges come after the corners, and both
+/// before all others.
 const std::vector<ElementShape>& corner_shapes() {
   static const std::vector<ElementShape> kTable = {
-      {"TET", 4, CellType::tetra, {}},
-      {"HEX", 8, CellType::hexahedron, {}},
-      {"WEDGE", 6, CellType::wedge, {3, 4, 5, 0, 1, 2}},
+      {"TET", 10, CellType::quadratic_tetra, {}}, {"TET", 4, CellType::tetra, {}},
+      {"HEX", 8, CellType::hexahedron, {}},       {"WEDGE", 6, CellType::wedge, {3, 4, 5, 0, 1, 2}},
       {"PYRAMID", 5, CellType::pyramid, {}},
   };
   return kTable;
@@ -243,7 +243,7 @@ void ExodusFile::find_blocks() {
     blocks_.push_back(block);
   }
   for (const auto& [type, count] : reduced) {
-    mesh_.notes.push_back(fmt::format("of {} elements '{}' the corners are used", count, type));
+    mesh_.notes.push_back(fmt::format("of {} elements '{}' not all nodes are used", count, type));
   }
   if (cells != static_cast<std::size_t>(sizes_.num_elem)) {
     throw base::ReadError(file_, fmt::format("is damaged: its blocks have {} elements, its head "

@@ -11,6 +11,8 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUpdateCellsV8toV9.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPImageDataReader.h>
 #include <vtkXMLPPolyDataReader.h>
@@ -47,7 +49,8 @@ vtkSmartPointer<vtkXMLReader> xml_reader(const std::string& extension) {
 }
 
 /// What the reader has read, once it is sure that VTK had nothing to say against it.
-MeshData result(const std::string& file, vtkDataObject* output, const VtkMessages& messages) {
+MeshData result(const std::string& file, vtkDataObject* output, const VtkMessages& messages,
+                bool has_old_numbers = false) {
   // The first message names the cause, the others what came of it.
   std::vector<std::string> lost_fields;
   for (const std::string& error : messages.errors()) {
@@ -64,6 +67,9 @@ MeshData result(const std::string& file, vtkDataObject* output, const VtkMessage
     throw base::ReadError(file,
                           fmt::format("holds {} points, but no cells", data->GetNumberOfPoints()));
   }
+  // Hexahedra of higher order are numbered anew by VTK, but not where it gives up the fields.
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(output);
+  if (has_old_numbers && !lost_fields.empty() && grid != nullptr) vtkUpdateCellsV8toV9(grid);
   MeshData mesh = mesh_data(*data);
   mesh.notes.insert(mesh.notes.end(), lost_fields.begin(), lost_fields.end());
   for (const std::string& warning : messages.warnings()) {
@@ -119,7 +125,9 @@ MeshData read_legacy(const std::string& file) {
   reader->ReadAllTCoordsOn();
   reader->ReadAllFieldsOn();
   reader->Update();
-  return result(file, reader->GetOutput(), messages);
+  constexpr int kFirstOfNewNumbers = 5;
+  return result(file, reader->GetOutput(), messages,
+                reader->GetFileMajorVersion() < kFirstOfNewNumbers);
 }
 
 }  // namespace
