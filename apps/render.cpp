@@ -188,8 +188,11 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--context", a.context,
                   "auto | osmesa | egl (a GPU without a display), for --projector gl")
       ->capture_default_str();
-  app->add_option("--sort", a.sort, "auto | none | centroid | fragments (reference)")
+  app->add_option("--sort", a.sort, "auto | none | centroid (gl) | fragments (cpu, reference)")
       ->capture_default_str();
+  app->add_option(
+      "--opaque-at", a.opaque_at,
+      "Opacity above 0, to 1, at which rays end, for --projector cpu. Default: 0.99998");
   app->add_option("--integrator", a.integrator,
                   "auto | exact (no table) | table2d (emission, absorption, mip, iso) | table3d "
                   "(full) | psi "

@@ -36,6 +36,7 @@ struct RenderArguments {
   std::string projector = "auto";
   std::string context = "auto";
   std::string sort = "auto";
+  std::string opaque_at;
   std::string integrator = "auto";
   std::string table;
   std::string layout = "auto";

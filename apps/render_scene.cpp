@@ -261,6 +261,9 @@ project::Request make_request(const RenderArguments& arguments) {
                                                                 {"psi", Integrator::psi},
                                                                 {"linear", Integrator::linear}});
   request.gl = make_gl_request(arguments);
+  if (!arguments.opaque_at.empty()) {
+    request.opaque_at = parse_number(arguments.opaque_at, "--opaque-at");
+  }
   if (!arguments.table.empty()) {
     const std::size_t cross = arguments.table.find('x');
     request.table_n = parse_count(arguments.table.substr(0, cross), "--table", 2);

@@ -16,9 +16,37 @@ constexpr int kTable3dLengths = 64;
 constexpr int kLargestTable2d = 8192;
 constexpr int kLargestTable3d = 512;
 
+// Behind this opacity lies less than 2e-5 of any color.
+constexpr double kOpaqueAt = 0.99998;
+
 bool needs_integral(const Scene& scene) {
   const bool field_maximum = scene.mode == Mode::mip && scene.mip_of == MipOf::field;
   return !field_maximum && scene.mode != Mode::thickness;
+}
+
+void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
+  const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
+  if (!blends) {
+    if (request.sort && *request.sort != SortMethod::none) {
+      throw base::UsageError(fmt::format("mode {} needs no order: leave out --sort {}",
+                                         to_string(scene.mode), to_string(*request.sort)));
+    }
+    plan.sort = SortMethod::none;
+    plan.reasons.push_back("order: none, mode " + to_string(scene.mode) + " does not depend on it");
+    return;
+  }
+  if (request.sort && *request.sort != SortMethod::fragments) {
+    throw base::UsageError(
+        "the cpu projector has one order only, exact at every pixel; leave out --sort " +
+        to_string(*request.sort));
+  }
+  plan.sort = SortMethod::fragments;
+  plan.opaque_at = request.opaque_at.value_or(kOpaqueAt);
+  if (!(plan.opaque_at > 0 && plan.opaque_at <= 1)) {
+    throw base::UsageError("--opaque-at needs an opacity above 0 and at most 1");
+  }
+  plan.reasons.push_back(fmt::format(
+      "order: fragments, exact at every pixel; rays end at an opacity of {}", plan.opaque_at));
 }
 
 void plan_order(const Scene& scene, const Request& request, Plan& plan) {
@@ -33,8 +61,12 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
     plan.reasons.emplace_back("order: fragments, exact at every pixel (reference)");
     return;
   }
+  if (plan.projector == Projector::cpu) {
+    plan_order_of_cpu(scene, request, plan);
+    return;
+  }
   if (request.sort == SortMethod::fragments) {
-    throw base::UsageError("--sort fragments needs --projector reference");
+    throw base::UsageError("--sort fragments needs --projector cpu or reference");
   }
   const bool commutative = is_commutative(scene);
   if (!commutative && request.sort == SortMethod::none) {
@@ -89,9 +121,10 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
     plan.reasons.emplace_back("integrator: exact per segment, no table");
     return;
   }
-  if (plan.projector == Projector::reference) {
+  if (plan.projector != Projector::gl) {
     throw base::UsageError(
-        "the reference projector integrates exactly; tables need --projector gl");
+        fmt::format("the {} projector integrates exactly; tables need --projector gl",
+                    to_string(plan.projector)));
   }
   if (plan.integrator == Integrator::linear) {
     plan_linear(scene, request, plan);
@@ -130,7 +163,7 @@ void plan_projector(const Scene& scene, Plan& plan) {
           "projector: reference, double precision, one ray at a time: slow, judges the others");
       return;
     case Projector::cpu:
-      if (scene.mode != Mode::thickness) {
+      if (scene.mode == Mode::iso) {
         throw base::UsageError("--projector cpu has no mode " + to_string(scene.mode) +
                                " yet; use --projector gl");
       }
@@ -167,6 +200,9 @@ Plan plan(const Scene& scene, const Request& request) {
     throw base::UsageError(
         "field '" + scene.field.name +
         "' is constant in each cell and has no isosurface; choose a point field (see 'info')");
+  }
+  if (request.opaque_at && plan.projector != Projector::cpu) {
+    throw base::UsageError("--opaque-at is for --projector cpu");
   }
   plan_order(scene, request, plan);
   plan_integrator(scene, request, plan);

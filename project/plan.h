@@ -26,9 +26,10 @@ struct Request {
   std::optional<SortMethod> sort;
   std::optional<Integrator> integrator;
   std::optional<ContextKind> context;
-  int table_n = 0;  ///< scalar resolution of the table, 0: chosen
-  int table_m = 0;  ///< length resolution of the 3D table, 0: chosen
-  GlRequest gl;     ///< for the gl projector only
+  std::optional<double> opaque_at;  ///< in (0, 1]; mode full of the cpu projector
+  int table_n = 0;                  ///< scalar resolution of the table, 0: chosen
+  int table_m = 0;                  ///< length resolution of the 3D table, 0: chosen
+  GlRequest gl;                     ///< for the gl projector only
 };
 
 /// How a scene is drawn, and why.
@@ -40,6 +41,7 @@ struct Plan {
   int table_n = 0;                   ///< 0: no table
   int table_m = 0;                   ///< 0: no length axis
   GlPlan gl;                         ///< for the gl projector only
+  double opaque_at = 1;              ///< opacity at which a ray ends (cpu)
   bool gradients = false;            ///< per-vertex gradients are computed (smooth shading)
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "project/cpu/tile_kernel.h"
+#include "project/cpu/tile_order.h"
 
 namespace tetraglass::project::cpu {
 
@@ -20,6 +21,9 @@ CellProjector::CellProjector(const Scene& scene, const Plan& plan)
   middle_ = 0.5 * box.min() + 0.5 * box.max();
   const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
   if (half_diagonal > 0) radius_ = half_diagonal;
+  if (scene.mode == Mode::thickness || scene.mode == Mode::iso) return;
+  medium_.emplace(scene.transfer_function, cells_.scale, radius_);
+  intervals_ = cell_intervals(*medium_, cells_);
 }
 
 Image CellProjector::draw(const Frame& frame, Stats& stats) {
@@ -27,21 +31,41 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   Image image(frame.width(), frame.height());
   const Projection projection(frame, radius_, middle_);
   points_.project(*scene_.mesh, cells_, frame, projection);
-  bins_.assign(cells_, points_, frame.width(), frame.height(), kTileSize);
-  const Picture picture = {scene_.mode, &cells_, &points_, &projection, &image};
+  const bool blends = scene_.mode == Mode::full || scene_.mode == Mode::iso;
+  const int tile_size = blends ? kLargestTile / 2 : kLargestTile;
+  bins_.assign(cells_, points_, frame.width(), frame.height(), tile_size);
+  Picture picture;
+  picture.mode = scene_.mode;
+  picture.mip_of = scene_.mip_of;
+  picture.tile_size = tile_size;
+  picture.opaque = static_cast<float>(1 - plan_.opaque_at);
+  picture.cells = &cells_;
+  picture.points = &points_;
+  picture.projection = &projection;
+  picture.medium = medium_ ? &*medium_ : nullptr;
+  picture.intervals = intervals_;
+  picture.image = &image;
   const std::vector<std::uint32_t> tiles = bins_.largest_first();
   std::atomic<std::uint64_t> fragments{0};
-  tbb::enumerable_thread_specific<TileBuffers> buffers;
+  struct Worker {
+    TileBuffers buffers;
+    TileOrder order;
+  };
+  tbb::enumerable_thread_specific<Worker> workers;
   tbb::parallel_for(
       std::size_t{0}, tiles.size(),
       [&](std::size_t i) {
         const std::size_t tile = tiles[i];
-        const int x = static_cast<int>(tile % bins_.tiles_x()) * kTileSize;
-        const int y = static_cast<int>(tile / bins_.tiles_x()) * kTileSize;
-        fragments += draw_tile(picture, x, y, bins_.cells(tile), buffers.local());
+        const int x = static_cast<int>(tile % bins_.tiles_x()) * tile_size;
+        const int y = static_cast<int>(tile / bins_.tiles_x()) * tile_size;
+        Worker& worker = workers.local();
+        std::span<const std::uint32_t> cells = bins_.cells(tile);
+        if (blends) cells = worker.order.front_to_back(cells, cells_, points_);
+        fragments += draw_tile(picture, x, y, cells, worker.buffers).fragments;
       },
       tbb::simple_partitioner());
   stats.fragments += fragments;
+  if (blends) stats.sort_method = to_string(plan_.sort);
   stats.project_ms += clock.milliseconds();
   stats.threads = tbb::this_task_arena::max_concurrency();
   return image;

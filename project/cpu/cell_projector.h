@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "project/camera.h"
 #include "project/cpu/drawn_cells.h"
+#include "project/cpu/medium.h"
 #include "project/cpu/tile_bins.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
@@ -35,6 +37,8 @@ class CellProjector {
   DrawnCells cells_;
   double radius_ = 1;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  std::optional<Medium> medium_;
+  std::vector<IntervalRange> intervals_;
   ViewPoints points_;
   TileBins bins_;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <hwy/aligned_allocator.h>
 
@@ -10,6 +13,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 #include <hwy/highway.h>
 
+#include "project/cpu/ordered_shader-inl.h"
 #include "project/cpu/tile_raster-inl.h"
 #include "project/cpu/tile_shaders-inl.h"
 
@@ -19,10 +23,25 @@ namespace tetraglass::project::cpu {
 
 /// Floats of whole tiles, block by block, each in the order of its lanes.
 struct TileBuffers::Contents {
-  static constexpr std::size_t kPixels = std::size_t{kTileSize} * kTileSize;
+  static constexpr std::size_t kPixels = std::size_t{kLargestTile} * kLargestTile;
   hwy::AlignedFreeUniquePtr<float[]> accumulators =
       hwy::AllocateAligned<float>(4 * kPixels);  // [channel][pixel]
   hwy::AlignedFreeUniquePtr<float[]> stretch = hwy::AllocateAligned<float>(kPixels);
+
+  /// Room for so many floats.
+  float* records(std::size_t count) {
+    if (count > record_count_) {
+      records_ = hwy::AllocateAligned<float>(count);
+      record_count_ = count;
+    }
+    return records_.get();
+  }
+
+  hwy::AlignedFreeUniquePtr<float[]> last_keys = hwy::AllocateAligned<float>(kPixels);
+
+ private:
+  hwy::AlignedFreeUniquePtr<float[]> records_;
+  std::size_t record_count_ = 0;
 };
 
 }  // namespace tetraglass::project::cpu
@@ -34,13 +53,15 @@ namespace tetraglass::project::cpu::HWY_NAMESPACE {
 /// Writes the pixels of the tile that lie in the image. `pixel` gives red, green, blue and alpha of
 /// a place in the accumulators.
 template <class F>
-void write_pixels(Image& image, int tile_x, int tile_y, const F& pixel) {
-  const int width = std::min(kTileSize, image.width - tile_x);
-  const int height = std::min(kTileSize, image.height - tile_y);
+void write_pixels(const Picture& picture, int tile_x, int tile_y, const F& pixel) {
+  Image& image = *picture.image;
+  const int width = std::min(picture.tile_size, image.width - tile_x);
+  const int height = std::min(picture.tile_size, image.height - tile_y);
+  const int blocks_x = picture.tile_size / kBlockWidth;
   for (int y = 0; y < height; ++y) {
     float* out = image.pixel(tile_x, tile_y + y);
     for (int x = 0; x < width; ++x) {
-      const int block = (y / kBlockHeight) * kBlocksX + x / kBlockWidth;
+      const int block = (y / kBlockHeight) * blocks_x + x / kBlockWidth;
       const int lane = (y % kBlockHeight) * kBlockWidth + x % kBlockWidth;
       const std::array<float, 4> rgba =
           pixel(static_cast<std::size_t>(block) * kLanes + static_cast<std::size_t>(lane));
@@ -49,29 +70,109 @@ void write_pixels(Image& image, int tile_x, int tile_y, const F& pixel) {
   }
 }
 
+/// Feeds the shader with the segments of the cells; returns their number.
 template <class Shader>
-std::uint64_t shade_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
-                         TileBuffers::Contents& buffers) {
-  Shader shader(picture, buffers.accumulators.get());
-  std::uint64_t segments = 0;
+std::uint64_t rasterize(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                        const TileBuffers::Contents& buffers, Shader& shader) {
+  const float* stretch = buffers.stretch.get();
   if (picture.projection->perspective) {
-    fill_stretch(*picture.projection, x, y, buffers.stretch.get());
-    segments = TileRaster<true, Shader>(picture, x, y, buffers.stretch.get(), shader).draw(cells);
-  } else {
-    segments = TileRaster<false, Shader>(picture, x, y, nullptr, shader).draw(cells);
+    return TileRaster<true, Shader>(picture, x, y, stretch, shader).draw(cells);
   }
-  write_pixels(*picture.image, x, y, [&](std::size_t pixel) { return shader.pixel(pixel); });
-  return segments;
+  return TileRaster<false, Shader>(picture, x, y, stretch, shader).draw(cells);
 }
 
-std::uint64_t tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
-                   TileBuffers::Contents& buffers) {
+/// Modes that add up.
+template <class Shader>
+TileStats shade_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                     TileBuffers::Contents& buffers) {
+  Shader shader(picture, buffers.accumulators.get());
+  const std::uint64_t segments = rasterize(picture, x, y, cells, buffers, shader);
+  write_pixels(picture, x, y, [&](std::size_t pixel) { return shader.pixel(pixel); });
+  return {segments, 0};
+}
+
+/// Draws blocks of the tile with delay lines of `window` records each, and returns those blocks for
+/// which the window was too short.
+template <class Shader>
+std::vector<std::uint16_t> blend_blocks(const Picture& picture, int x, int y,
+                                        std::span<const std::uint32_t> cells,
+                                        std::span<const std::uint16_t> blocks, std::size_t window,
+                                        TileBuffers::Contents& buffers, FrontToBack& image,
+                                        std::uint64_t& segments) {
+  std::vector<std::uint16_t> lines_of_blocks(kTilePixels / kLanes, kNoLine);
+  std::vector<FragmentLines::Line> states(blocks.size());
+  FragmentLines lines(image, buffers.records(blocks.size() * window * FragmentLines::kRecord),
+                      buffers.last_keys.get(), states.data(), window, picture.opaque);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    lines_of_blocks[blocks[i]] = static_cast<std::uint16_t>(i);
+    lines.clear(i);
+    image.clear(blocks[i]);
+  }
+  Shader shader(picture, lines, lines_of_blocks);
+  segments += rasterize(picture, x, y, cells, buffers, shader);
+  std::vector<std::uint16_t> violated;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    lines.flush(i, blocks[i]);
+    if (lines.line(i).violated) violated.push_back(blocks[i]);
+  }
+  return violated;
+}
+
+/// Modes that blend.
+template <class Shader>
+TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                     TileBuffers::Contents& buffers) {
+  constexpr std::size_t kWindow = 16;       // enough for nearly all blocks of meshes without cycles
+  constexpr std::size_t kWider = 8;         // times, where it was not
+  constexpr std::size_t kMemory = 1 << 22;  // floats of all delay lines of one pass
+  FrontToBack image(buffers.accumulators.get());
+  const auto side = static_cast<std::size_t>(picture.tile_size);
+  std::vector<std::uint16_t> blocks(side * side / kLanes);
+  std::iota(blocks.begin(), blocks.end(), std::uint16_t{0});
+  TileStats stats;
+  blocks =
+      blend_blocks<Shader>(picture, x, y, cells, blocks, kWindow, buffers, image, stats.fragments);
+  stats.redone = blocks.size();
+  for (std::size_t window = kWindow * kWider; !blocks.empty(); window *= kWider) {
+    const std::size_t at_once =
+        std::max<std::size_t>(1, kMemory / (window * FragmentLines::kRecord));
+    std::vector<std::uint16_t> violated;
+    for (std::size_t first = 0; first < blocks.size(); first += at_once) {
+      const auto part = std::span<const std::uint16_t>(blocks).subspan(
+          first, std::min(at_once, blocks.size() - first));
+      std::uint64_t again = 0;
+      const std::vector<std::uint16_t> left =
+          blend_blocks<Shader>(picture, x, y, cells, part, window, buffers, image, again);
+      violated.insert(violated.end(), left.begin(), left.end());
+    }
+    blocks = std::move(violated);
+  }
+  write_pixels(picture, x, y, [&](std::size_t pixel) { return image.pixel(pixel); });
+  return stats;
+}
+
+TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+               TileBuffers::Contents& buffers) {
+  if (picture.projection->perspective) {
+    fill_stretch(*picture.projection, x, y, picture.tile_size, buffers.stretch.get());
+  }
   switch (picture.mode) {
     case Mode::thickness:
       return shade_tile<ThicknessShader>(picture, x, y, cells, buffers);
-    default:
-      return 0;
+    case Mode::emission:
+      return shade_tile<EmissionShader>(picture, x, y, cells, buffers);
+    case Mode::absorption:
+      return shade_tile<AbsorptionShader>(picture, x, y, cells, buffers);
+    case Mode::mip:
+      return picture.mip_of == MipOf::field
+                 ? shade_tile<FieldMaximumShader>(picture, x, y, cells, buffers)
+                 : shade_tile<ColorMaximumShader>(picture, x, y, cells, buffers);
+    case Mode::full:
+      return blend_tile<FullShader>(picture, x, y, cells, buffers);
+    case Mode::iso:
+      break;
   }
+  return {};
 }
 
 }  // namespace tetraglass::project::cpu::HWY_NAMESPACE
@@ -87,8 +188,8 @@ TileBuffers::~TileBuffers() = default;
 TileBuffers::TileBuffers(TileBuffers&&) noexcept = default;
 TileBuffers& TileBuffers::operator=(TileBuffers&&) noexcept = default;
 
-std::uint64_t draw_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
-                        TileBuffers& buffers) {
+TileStats draw_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                    TileBuffers& buffers) {
   return HWY_DYNAMIC_DISPATCH(tile)(picture, x, y, cells, *buffers);
 }
 

@@ -5,21 +5,29 @@
 #include <span>
 
 #include "project/cpu/drawn_cells.h"
+#include "project/cpu/medium.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
 
 namespace tetraglass::project::cpu {
 
-/// The side of the square tiles in which pictures are drawn, in pixels: what they accumulate stays
-/// in the cache.
-inline constexpr int kTileSize = 64;
+/// The most pixels each way of a tile, which is square.
+inline constexpr int kLargestTile = 64;
 
 /// What all tiles of a picture have in common. Everything that is pointed to outlives the drawing.
 struct Picture {
   Mode mode = Mode::thickness;
+  MipOf mip_of = MipOf::field;
+  /// Modes that add up: the largest, for the least set-up. Modes that blend keep the last fragments
+  /// of each pixel, which have to stay in the cache.
+  int tile_size = kLargestTile;
+  /// Rays that let through less than this are opaque; 0: none (mode full).
+  float opaque = 0;
   const DrawnCells* cells = nullptr;
   const ViewPoints* points = nullptr;
   const Projection* projection = nullptr;
+  const Medium* medium = nullptr;            ///< null in modes that have no use for it
+  std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium
   Image* image = nullptr;
 };
 
@@ -40,13 +48,24 @@ class TileBuffers {
   std::unique_ptr<Contents> contents_;
 };
 
+/// What drawing a tile took.
+struct TileStats {
+  std::uint64_t fragments = 0;
+  std::uint64_t redone = 0;  ///< blocks of pixels that were drawn again with a wider window
+};
+
 /// Draws the tile whose first pixel is (x, y): the cells (numbers of drawn cells), by the widest
-/// vectors of the machine. Writes the tile's pixels of the image. Returns the number of fragments.
+/// vectors of the machine. Writes the tile's pixels of the image.
+///
+/// In modes that blend the cells come roughly front to back. The segments of each pixel are then
+/// put in exact order: in a window of 16 segments; blocks of pixels where that was not enough are
+/// drawn again, with wider windows, until it is.
+///
 /// Tiles do not touch each other's pixels and may be drawn at once.
 ///
 /// Rays that run within a face are decided as the reference decides them: as if moved by a tiny
 /// step to the right and up.
-std::uint64_t draw_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
-                        TileBuffers& buffers);
+TileStats draw_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                    TileBuffers& buffers);
 
 }  // namespace tetraglass::project::cpu

@@ -31,9 +31,7 @@ using Lanes = hn::Mask<FloatTag>;
 inline constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
 inline constexpr int kBlockWidth = kLanes < 4 ? 1 : 4;
 inline constexpr int kBlockHeight = static_cast<int>(kLanes) / kBlockWidth;
-inline constexpr int kBlocksX = kTileSize / kBlockWidth;
-inline constexpr int kBlocksY = kTileSize / kBlockHeight;
-inline constexpr std::size_t kTilePixels = std::size_t{kTileSize} * kTileSize;
+inline constexpr std::size_t kTilePixels = std::size_t{kLargestTile} * kLargestTile;
 
 HWY_INLINE Float set(float value) {
   return hn::Set(FloatTag(), value);
@@ -52,6 +50,7 @@ struct BlockSegments {
   Float front;  ///< scaled values, without meaning where the shader has no use for them
   Float back;
   Float length;  ///< in units of the projection's radius
+  Float key;     ///< twice the depth of the middle, in parallel views; twice its z / m - 1 else
 };
 
 /// The horizontal or vertical pixel offset of each lane in its block.
@@ -66,16 +65,17 @@ HWY_INLINE Float lane_offsets(bool vertical) {
 
 /// The length of a ray between two depths, in units of the projection's radius, divided by the
 /// product of depth difference and both z / m; [pixel of block by block]. Perspective only.
-HWY_INLINE void fill_stretch(const Projection& projection, int tile_x, int tile_y, float* stretch) {
+HWY_INLINE void fill_stretch(const Projection& projection, int tile_x, int tile_y, int tile_size,
+                             float* stretch) {
   const auto inverse = static_cast<float>(1 / projection.focal);
   const Float unit = set(static_cast<float>(projection.middle_depth));
   const Float dx = lane_offsets(false);
   const Float dy = lane_offsets(true);
-  for (int y = 0; y < kBlocksY; ++y) {
+  for (int y = 0; y < tile_size / kBlockHeight; ++y) {
     const auto top = static_cast<float>(tile_y + y * kBlockHeight - projection.center_y);
     const Float v = hn::Mul(hn::Add(set(top), dy), set(inverse));
     const Float rest = hn::MulAdd(v, v, set(1.0F));
-    for (int x = 0; x < kBlocksX; ++x) {
+    for (int x = 0; x < tile_size / kBlockWidth; ++x) {
       const auto left = static_cast<float>(tile_x + x * kBlockWidth - projection.center_x);
       const Float u = hn::Mul(hn::Add(set(left), dx), set(inverse));
       hn::Store(hn::Mul(unit, hn::Sqrt(hn::MulAdd(u, u, rest))), FloatTag(), stretch);
@@ -100,7 +100,9 @@ inline constexpr auto kFrontToBack = [] {
 
 /// Feeds a shader with the segments of a tile. A shader has
 ///   static constexpr bool kValues;        whether it reads front and back
+///   static constexpr bool kKeys;          whether it reads the key
 ///   bool begin(std::uint32_t cell);       false: the cell shows nothing
+///   bool wants(std::size_t block);        false: the segments there show nothing
 ///   void add(std::size_t block, Lanes covered, const BlockSegments&);
 template <bool kPerspective, class Shader>
 class TileRaster {
@@ -111,6 +113,7 @@ class TileRaster {
         shader_(shader),
         tile_x_(tile_x),
         tile_y_(tile_y),
+        tile_size_(picture.tile_size),
         stretch_(stretch),
         in_block_x_(lane_offsets(false)),
         in_block_y_(lane_offsets(true)) {}
@@ -118,8 +121,8 @@ class TileRaster {
   /// Returns the number of segments.
   std::uint64_t draw(std::span<const std::uint32_t> cells) {
     const Projection& projection = *picture_.projection;
-    const TileOrigin origin = {projection.center_x - (tile_x_ + kTileSize / 2),
-                               projection.center_y - (tile_y_ + kTileSize / 2)};
+    const TileOrigin origin = {projection.center_x - (tile_x_ + tile_size_ / 2),
+                               projection.center_y - (tile_y_ + tile_size_ / 2)};
     std::array<std::uint32_t, kBatch> numbers;
     for (std::size_t first = 0; first < cells.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, cells.size() - first);
@@ -194,8 +197,8 @@ class TileRaster {
         pixel_bounds(vertices, *picture_.points, picture_.image->width, picture_.image->height);
     first_x_ = std::max(bounds.first_x - tile_x_, 0) / kBlockWidth;
     first_y_ = std::max(bounds.first_y - tile_y_, 0) / kBlockHeight;
-    last_x_ = std::min(bounds.last_x - tile_x_, kTileSize - 1) / kBlockWidth;
-    last_y_ = std::min(bounds.last_y - tile_y_, kTileSize - 1) / kBlockHeight;
+    last_x_ = std::min(bounds.last_x - tile_x_, tile_size_ - 1) / kBlockWidth;
+    last_y_ = std::min(bounds.last_y - tile_y_, tile_size_ - 1) / kBlockHeight;
     if constexpr (Shader::kValues) set_value_range(vertices);
     if (kPerspective && front == 0) {
       draw_around_eye(vertices, i);
@@ -251,14 +254,16 @@ class TileRaster {
     const Float side1 = set(second);
     const Float side2 = set(third);
     for (int by = first_y_; by <= last_y_; ++by) {
-      const int top = by * kBlockHeight - kTileSize / 2;
+      const int top = by * kBlockHeight - tile_size_ / 2;
       const Float y = hn::Add(in_block_y_, set(static_cast<float>(top)));
       std::array<Float, kFaces> row;
       for (std::size_t k = 0; k < kFaces; ++k) {
         row[k] = hn::MulAdd(planes.depth[k].dy, y, planes.depth[k].start);
       }
       for (int bx = first_x_; bx <= last_x_; ++bx) {
-        const int left = bx * kBlockWidth - kTileSize / 2;
+        const auto block = static_cast<std::size_t>(by * (tile_size_ / kBlockWidth) + bx);
+        if (!shader_.wants(block)) continue;
+        const int left = bx * kBlockWidth - tile_size_ / 2;
         const Float x = hn::Add(in_block_x_, set(static_cast<float>(left)));
         std::array<Float, kFaces> p;
         for (std::size_t k = 0; k < kFaces; ++k) {
@@ -297,7 +302,6 @@ class TileRaster {
           s.back = hn::IfThenElse(hn::Eq(s.exit, exit2), v[2], s.back);
           if constexpr (kFaces == 5) s.back = hn::IfThenElse(hn::Eq(s.exit, p[4]), v[4], s.back);
         }
-        const auto block = static_cast<std::size_t>(by * kBlocksX + bx);
         finish(block, s);
         segments_ += hn::CountTrue(FloatTag(), covered);
         shader_.add(block, covered, s);
@@ -313,12 +317,18 @@ class TileRaster {
       const Float far = reciprocal(hn::Sub(set(1), s.exit));
       const Float stretch = hn::Load(FloatTag(), stretch_ + block * kLanes);
       s.length = hn::Mul(hn::Mul(depth, stretch), hn::Mul(near, far));
+      // z / m - 1 = d / (1 - d) for the depth d = 1 - m / z: exact far away, where z / m is
+      // nearly 1.
+      if constexpr (Shader::kKeys) {
+        s.key = hn::MulAdd(s.entry, near, hn::Mul(s.exit, far));
+      }
       if constexpr (Shader::kValues) {
         s.front = hn::Mul(s.front, near);
         s.back = hn::Mul(s.back, far);
       }
     } else {
       s.length = depth;
+      if constexpr (Shader::kKeys) s.key = hn::Add(s.entry, s.exit);
     }
     if constexpr (Shader::kValues) {  // rounding of steep faces
       s.front = hn::Min(hn::Max(s.front, low_), high_);
@@ -330,6 +340,7 @@ class TileRaster {
   Shader& shader_;
   int tile_x_;
   int tile_y_;
+  int tile_size_;
   const float* stretch_;
   Float in_block_x_;
   Float in_block_y_;

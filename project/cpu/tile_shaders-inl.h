@@ -10,19 +10,33 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <hwy/highway.h>
 
-#include "project/cpu/tile_raster-inl.h"
+#include "project/cpu/interval_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::project::cpu::HWY_NAMESPACE {
+
+/// Adds to the accumulators of a block.
+HWY_INLINE void add_to(float* sums, std::size_t block, Float amount) {
+  float* sum = sums + block * kLanes;
+  hn::Store(hn::Add(hn::Load(FloatTag(), sum), amount), FloatTag(), sum);
+}
+
+HWY_INLINE void raise_to(float* largest, std::size_t block, Float value) {
+  float* place = largest + block * kLanes;
+  hn::Store(hn::Max(hn::Load(FloatTag(), place), value), FloatTag(), place);
+}
 
 /// The length of the ray inside the mesh (weiler2002 Fig. 7).
 class ThicknessShader {
  public:
   static constexpr bool kValues = false;
+  static constexpr bool kKeys = false;
 
   ThicknessShader(const Picture& picture, float* sums)
       : unit_(static_cast<float>(picture.projection->radius)), sums_(sums) {
@@ -30,11 +44,10 @@ class ThicknessShader {
   }
 
   HWY_INLINE bool begin(std::uint32_t) { return true; }
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t) const { return true; }
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& s) {
-    float* sum = sums_ + block * kLanes;
-    const Float length = hn::IfThenElseZero(covered, s.length);
-    hn::Store(hn::Add(hn::Load(FloatTag(), sum), length), FloatTag(), sum);
+    add_to(sums_, block, hn::IfThenElseZero(covered, s.length));
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
@@ -45,6 +58,170 @@ class ThicknessShader {
  private:
   float unit_;
   float* sums_;
+};
+
+/// What shaders of a medium have in common: the cell in work, and its intervals.
+class MediumShader {
+ public:
+  static constexpr bool kValues = true;
+  static constexpr bool kKeys = true;  // no more work where they are not read
+
+  explicit MediumShader(const Picture& picture)
+      : cells_(*picture.cells),
+        medium_(*picture.medium),
+        ranges_(picture.intervals.data()),
+        of_cells_(!cells_.cell_values.empty()) {}
+
+  HWY_INLINE bool begin(std::uint32_t cell) {
+    cell_ = cell;
+    range_ = ranges_[cell];
+    return true;
+  }
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t) const { return true; }
+
+ protected:
+  HWY_INLINE BlockSegments with_cell_value(const BlockSegments& s) const {
+    BlockSegments result = s;
+    if (of_cells_) take_cell_value(cells_, cell_, result);
+    return result;
+  }
+
+  const DrawnCells& cells_;
+  const Medium& medium_;
+  const IntervalRange* ranges_;
+  bool of_cells_;
+  std::uint32_t cell_ = 0;
+  IntervalRange range_;
+};
+
+/// int kappa c dl.
+class EmissionShader : public MediumShader {
+ public:
+  EmissionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums) {
+    std::fill_n(sums, 3 * kTilePixels, 0.0F);
+  }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    Float sum[3] = {set(0), set(0), set(0)};
+    walk_intervals(medium_, range_, false, s, hn::IfThenElseZero(covered, s.length),
+                   [&](const MediumInterval& interval, const IntervalPart& part)
+                       HWY_ATTR { add_part(interval, part, sum); });
+    for (std::size_t c = 0; c < 3; ++c) add_to(sums_ + c * kTilePixels, block, sum[c]);
+  }
+
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
+    return {sums_[i], sums_[kTilePixels + i], sums_[2 * kTilePixels + i], 0};
+  }
+
+ private:
+  /// The mean of a product of two linear functions is the product of the values in the middle and
+  /// the twelfth part of the product of the rises.
+  static HWY_INLINE void add_part(const MediumInterval& interval, const IntervalPart& part,
+                                  Float* sum) {
+    const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
+    const Float rise = hn::Sub(part.back, part.front);
+    const Float light = hn::Mul(part.length, extinction(interval, middle));
+    const Float bend = hn::Mul(hn::Mul(part.length, hn::Mul(rise, rise)),
+                               set(interval.extinction_rise * (1.0F / 12)));
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum[c] = hn::MulAdd(light, color(interval, c, middle), sum[c]);
+      sum[c] = hn::MulAdd(bend, set(interval.color_rise[c]), sum[c]);
+    }
+  }
+
+  float* sums_;
+};
+
+/// int kappa dl.
+class AbsorptionShader : public MediumShader {
+ public:
+  AbsorptionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums) {
+    std::fill_n(sums, kTilePixels, 0.0F);
+  }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    Float depth = set(0);
+    walk_intervals(medium_, range_, false, s, hn::IfThenElseZero(covered, s.length),
+                   [&](const MediumInterval& interval, const IntervalPart& part) HWY_ATTR {
+                     const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
+                     depth = hn::MulAdd(part.length, extinction(interval, middle), depth);
+                   });
+    add_to(sums_, block, depth);
+  }
+
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
+    return {0, 0, 0, -std::expm1(-sums_[i])};
+  }
+
+ private:
+  float* sums_;
+};
+
+/// The color of the largest value.
+class FieldMaximumShader : public MediumShader {
+ public:
+  FieldMaximumShader(const Picture& picture, float* largest)
+      : MediumShader(picture), largest_(largest) {
+    std::fill_n(largest, kTilePixels, kNone);
+  }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    raise_to(largest_, block, hn::IfThenElse(covered, hn::Max(s.front, s.back), set(kNone)));
+  }
+
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
+    if (largest_[i] == kNone) return {};
+    const std::array<float, 3> rgb = medium_.color(largest_[i]);
+    return {rgb[0], rgb[1], rgb[2], 1};
+  }
+
+ private:
+  static constexpr float kNone = -16;  // below every scaled value
+  float* largest_;
+};
+
+/// The largest color of each channel (weiler2002 section 5.1): at one end of a segment's part in an
+/// interval.
+class ColorMaximumShader : public MediumShader {
+ public:
+  ColorMaximumShader(const Picture& picture, float* largest)
+      : MediumShader(picture), largest_(largest) {
+    std::fill_n(largest, 3 * kTilePixels, kNone);
+  }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    const Float low = hn::Min(s.front, s.back);
+    const Float high = hn::Max(s.front, s.back);
+    Float most[3] = {set(kNone), set(kNone), set(kNone)};
+    for (std::uint32_t k = range_.first; k <= range_.last; ++k) {
+      const MediumInterval& interval = medium_.intervals()[k];
+      const Float from = position(interval, hn::Max(low, set(interval.low)));
+      const Float to = position(interval, hn::Min(high, set(interval.high)));
+      const Lanes meets = hn::And(covered, hn::Le(from, to));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Float channel = hn::Max(color(interval, c, from), color(interval, c, to));
+        most[c] = hn::Max(most[c], hn::IfThenElse(meets, channel, set(kNone)));
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) raise_to(largest_ + c * kTilePixels, block, most[c]);
+  }
+
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
+    if (largest_[i] == kNone) return {};
+    // As in the reference, whose maximum starts from black.
+    const auto channel = [&](std::size_t c) {
+      return std::max(0.0F, largest_[c * kTilePixels + i]);
+    };
+    return {channel(0), channel(1), channel(2), 1};
+  }
+
+ private:
+  static constexpr float kNone = std::numeric_limits<float>::lowest();
+  float* largest_;
 };
 
 }  // namespace tetraglass::project::cpu::HWY_NAMESPACE

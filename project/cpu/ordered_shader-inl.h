@@ -1,0 +1,138 @@
+// What becomes of the segments of a tile where light is taken on the way: front to back. Compiled
+// for each instruction set: included only by tile_kernel.cpp, after highway.h.
+
+#if defined(TETRAGLASS_PROJECT_CPU_ORDERED_SHADER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRAGLASS_PROJECT_CPU_ORDERED_SHADER_INL_H_
+#undef TETRAGLASS_PROJECT_CPU_ORDERED_SHADER_INL_H_
+#else
+#define TETRAGLASS_PROJECT_CPU_ORDERED_SHADER_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <hwy/highway.h>
+
+#include "project/cpu/fragment_lines-inl.h"
+#include "project/cpu/light-inl.h"
+#include "project/cpu/tile_shaders-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tetraglass::project::cpu::HWY_NAMESPACE {
+
+/// Blocks that take no part in a pass.
+inline constexpr std::uint16_t kNoLine = 0xffff;
+
+/// int kappa c exp(-tau) dl: the segments of each cell, shaded, go to the delay line of their
+/// block.
+class FullShader : public MediumShader {
+ public:
+  /// `lines_of_blocks`: the delay line of each block of the tile or kNoLine.
+  FullShader(const Picture& picture, FragmentLines& lines,
+             std::span<const std::uint16_t> lines_of_blocks)
+      : MediumShader(picture),
+        points_(*picture.points),
+        projection_(*picture.projection),
+        lines_(lines),
+        lines_of_blocks_(lines_of_blocks) {}
+
+  HWY_INLINE bool begin(std::uint32_t cell) {
+    nearest_ = nearest_key(cell);
+    return MediumShader::begin(cell);
+  }
+
+  /// Behind an opaque block only what comes too late matters: it has to be told.
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const {
+    const std::uint16_t line = lines_of_blocks_[block];
+    if (line == kNoLine) return false;
+    const FragmentLines::Line& state = lines_.line(line);
+    return !state.opaque || nearest_ < state.opaque_key;
+  }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    const Float length = hn::IfThenElseZero(covered, s.length);
+    Fragment f;
+    f.channel = {s.key, set(0), set(0), set(0), set(0)};
+    // In a cell seen in perspective the field may rise along one ray and fall along another.
+    const Lanes falling = hn::And(covered, hn::Lt(s.back, s.front));
+    const bool descend = !hn::AllFalse(FloatTag(), falling);
+    if (HWY_LIKELY(!descend || range_.first == range_.last ||
+                   hn::AllTrue(FloatTag(), hn::Or(falling, hn::Not(covered))))) {
+      walk_intervals(medium_, range_, descend, s, length,
+                     [&](const MediumInterval& interval, const IntervalPart& part)
+                         HWY_ATTR { add_behind(shade(interval, part), f); });
+    } else {
+      walk_intervals(medium_, range_, false, s, length,
+                     [&](const MediumInterval& interval, const IntervalPart& part)
+                         HWY_ATTR { add_beside(shade(interval, part), falling, f); });
+    }
+    lines_.insert(lines_of_blocks_[block], block, covered, f);
+  }
+
+ private:
+  /// Light of one part, and its opacity.
+  struct Shaded {
+    Float color[3];
+    Float opacity;
+  };
+
+  static HWY_INLINE Shaded shade(const MediumInterval& interval, const IntervalPart& part) {
+    const FloatTag d;
+    const Float a = hn::Mul(part.length, extinction(interval, part.front));
+    const Float b = hn::Mul(part.length, extinction(interval, part.back));
+    const SegmentLight<Float> light = segment_light(d, a, b);
+    // The color at both ends is that of the interval's low end and a part of the rise.
+    const Float rise = hn::MulAdd(light.front, part.front, hn::Mul(light.back, part.back));
+    Shaded result;
+    result.opacity = hn::Add(light.front, light.back);
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.color[c] = hn::MulAdd(set(interval.color_rise[c]), rise,
+                                   hn::Mul(set(interval.color[c]), result.opacity));
+    }
+    return result;
+  }
+
+  static HWY_INLINE void add_behind(const Shaded& part, Fragment& f) {
+    const Float left = hn::Sub(set(1), f.channel[4]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      f.channel[1 + c] = hn::MulAdd(left, part.color[c], f.channel[1 + c]);
+    }
+    f.channel[4] = hn::MulAdd(left, part.opacity, f.channel[4]);
+  }
+
+  /// Behind, or in front in the lanes of `in_front`.
+  static HWY_INLINE void add_beside(const Shaded& part, Lanes in_front, Fragment& f) {
+    const Float through_sum = hn::Sub(set(1), f.channel[4]);
+    const Float through_part = hn::Sub(set(1), part.opacity);
+    const Float of_part = hn::IfThenElse(in_front, set(1), through_sum);
+    const Float of_sum = hn::IfThenElse(in_front, through_part, set(1));
+    for (std::size_t c = 0; c < 3; ++c) {
+      f.channel[1 + c] = hn::MulAdd(of_part, part.color[c], hn::Mul(of_sum, f.channel[1 + c]));
+    }
+    f.channel[4] = hn::MulAdd(of_part, part.opacity, hn::Mul(of_sum, f.channel[4]));
+  }
+
+  /// No fragment of the cell has a key below this (see TileRaster).
+  [[nodiscard]] HWY_INLINE float nearest_key(std::uint32_t cell) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : cells_.vertices[cell]) {
+      nearest = std::min(nearest, points_.exact[v].z);
+    }
+    return static_cast<float>(projection_.perspective ? 2 * (nearest / projection_.middle_depth - 1)
+                                                      : 2 * nearest);
+  }
+
+  const ViewPoints& points_;
+  const Projection& projection_;
+  FragmentLines& lines_;
+  std::span<const std::uint16_t> lines_of_blocks_;
+  float nearest_ = 0;
+};
+
+}  // namespace tetraglass::project::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
