@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   add_info(program);
   add_sample(program);
   add_compare(program);
+  add_order(program);
   add_table(program);
   try {
     program.parse(argc, argv);

@@ -169,19 +169,6 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "Linear R,G,B[,A] behind a .png. Default: black (white in mode absorption)");
 }
 
-void add_camera_options(CLI::App* app, RenderArguments& a) {
-  app->add_option(
-      "--view", a.view,
-      "Look from this direction, the mesh framed: +x, -z, X,Y,Z, ... Default: 1,0.8,0.6");
-  app->add_option("--eye", a.eye, "X,Y,Z in the mesh's units, instead of --view");
-  app->add_option("--target", a.target,
-                  "X,Y,Z to look at, with --eye. Default: the centre of the mesh");
-  app->add_option("--up", a.up, "X,Y,Z. Default: 0,0,1 (0,1,0 when looking along z)");
-  app->add_option("--fov", a.fov, "Vertical field of view in degrees. Default: 30");
-  app->add_option("--ortho", a.ortho,
-                  "Parallel view; the height of the picture in the mesh's units");
-}
-
 void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--projector", a.projector, "auto | cpu | gl | reference (exact and slow)")
       ->capture_default_str();

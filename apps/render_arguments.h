@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/camera_options.h"
 #include "mesh/import.h"
 #include "project/image_file.h"
 #include "project/plan.h"
@@ -11,7 +12,7 @@
 namespace tetraglass::apps {
 
 /// The options as typed; empty where not given.
-struct RenderArguments {
+struct RenderArguments : CameraArguments {
   std::string input;
   std::vector<std::string> outputs;
   std::string size = "800x600";
@@ -26,13 +27,7 @@ struct RenderArguments {
   std::string opacity;
   std::string opacity_scale;
   bool logarithmic = false;
-  std::string eye;
-  std::string target;
-  std::string up;
-  std::string fov;
-  std::string ortho;
   std::vector<std::string> clip;
-  std::string view;
   std::string projector = "auto";
   std::string context = "auto";
   std::string sort = "auto";

@@ -23,50 +23,6 @@ using project::Mode;
 // exp(-3) = 5 % of the light.
 constexpr double kAutomaticDepth = 3;
 
-constexpr double kDefaultFov =
-    30;  // degrees: little perspective distortion, as figures usually have
-
-/// Whether z is no good as the up direction: less than a thousandth of the gaze goes across it.
-bool is_along_z(const Eigen::Vector3d& gaze) {
-  return gaze.head<2>().stableNorm() <= 1e-3 * std::abs(gaze.z());
-}
-
-project::Camera make_camera(const RenderArguments& arguments, const mesh::TetMesh& mesh,
-                            double aspect) {
-  if (!arguments.fov.empty() && !arguments.ortho.empty()) {
-    throw base::UsageError(
-        "--fov is for perspective, --ortho for parallel views: give one of them");
-  }
-  if (!arguments.eye.empty() && !arguments.view.empty()) {
-    throw base::UsageError("--view frames the mesh by itself: give --eye or --view, not both");
-  }
-  if (arguments.eye.empty() && !arguments.target.empty()) {
-    throw base::UsageError("--target needs --eye; to look from a direction use --view");
-  }
-  const double fov = arguments.fov.empty() ? kDefaultFov : parse_number(arguments.fov, "--fov");
-  if (!(fov > 0 && fov < 180))
-    throw base::UsageError("--fov must lie between 0 and 180 degrees (exclusive)");
-  const Eigen::Vector3d direction =
-      parse_direction(arguments.view.empty() ? "1,0.8,0.6" : arguments.view, "--view");
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  if (!arguments.up.empty()) {
-    up = parse_vector(arguments.up, "--up");
-  } else if (arguments.eye.empty() && is_along_z(direction)) {
-    up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
-  }
-  project::Camera camera = project::frame_camera(mesh.points, direction, up, fov, aspect);
-  if (!arguments.eye.empty()) {
-    camera.eye = parse_vector(arguments.eye, "--eye");
-    camera.target = arguments.target.empty() ? mesh::bounds(mesh).center()
-                                             : parse_vector(arguments.target, "--target");
-    if (arguments.up.empty() && is_along_z(camera.target - camera.eye))
-      camera.up = Eigen::Vector3d::UnitY();
-  }
-  camera.parallel = !arguments.ortho.empty();
-  if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
-  return camera;
-}
-
 /// Color maps say nothing of opacity, so it comes from the data; x-ray, and files, mean the opacity
 /// that they have.
 bool wants_automatic_opacity(const RenderArguments& arguments) {

@@ -13,6 +13,7 @@ void add_import(CLI::App& program);
 void add_info(CLI::App& program);
 void add_sample(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_order(CLI::App& program);
 void add_table(CLI::App& program);
 
 }  // namespace tetraglass::apps

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 
 namespace tetraglass::mesh {
 namespace {
@@ -17,6 +18,9 @@ Kernel::Vector_3 vector(const Eigen::Vector3d& v) {
 }
 Kernel::Vector_2 vector(const Eigen::Vector2d& v) {
   return {v.x(), v.y()};
+}
+Kernel::Weighted_point_3 point(const WeightedPoint& p) {
+  return {point(p.point), p.weight};
 }
 
 // The static error bounds of the determinants, after Shewchuk 1997, "Adaptive Precision
@@ -37,7 +41,11 @@ Kernel::Vector_2 vector(const Eigen::Vector2d& v) {
 // and 2^-1000 are far more than that; they are no smaller so that the bound itself is computed in
 // normal numbers (subnormal ones cost over a hundred cycles). Infinity and NaN, from overflow, fail
 // the comparison.
+//
+// Where two columns of the 3 x 3 determinant are differences of given numbers, each brings one more
+// rounding of its own: 7 of them, (7 + 64 u) u P^. A difference has no underflow.
 constexpr double kU = 0x1p-53;
+constexpr double kDifferencesBound3 = (7 + 64 * kU) * kU;
 constexpr double kBound3 = (5 + 64 * kU) * kU;
 constexpr double kBound2 = (2 + 16 * kU) * kU;
 constexpr double kUnderflow = 0x1p-1000;
@@ -49,6 +57,43 @@ constexpr double kUnderflow = 0x1p-1000;
   return Kernel().orientation_3_object()(vector(a), vector(b), vector(c));
 }
 
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+
+[[gnu::noinline]] int decide_orientation_towards(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                                 const Eigen::Vector3d& c,
+                                                 const Eigen::Vector3d& direction) {
+  const auto exact = [](const Eigen::Vector3d& v) {
+    return ExactKernel::Vector_3(v.x(), v.y(), v.z());
+  };
+  const ExactKernel::Vector_3 origin = exact(a);
+  return CGAL::orientation(ExactKernel::Vector_3(exact(b) - origin),
+                           ExactKernel::Vector_3(exact(c) - origin), exact(direction));
+}
+
+// A determinant with an approximation of it and the sum of the absolute values of its terms.
+struct Determinant {
+  double value;
+  double permanent;
+};
+
+Determinant determinant_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                           const Eigen::Vector3d& c) {
+  const double yz = b.y() * c.z();
+  const double zy = b.z() * c.y();
+  const double zx = b.z() * c.x();
+  const double xz = b.x() * c.z();
+  const double xy = b.x() * c.y();
+  const double yx = b.y() * c.x();
+  return {a.x() * (yz - zy) + a.y() * (zx - xz) + a.z() * (xy - yx),
+          std::abs(a.x()) * (std::abs(yz) + std::abs(zy)) +
+              std::abs(a.y()) * (std::abs(zx) + std::abs(xz)) +
+              std::abs(a.z()) * (std::abs(xy) + std::abs(yx))};
+}
+
+double underflow_bound(const Eigen::Vector3d& a) {
+  return kUnderflow * (std::abs(a.x()) + std::abs(a.y()) + std::abs(a.z()) + 2);
+}
+
 }  // namespace
 
 int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
@@ -58,22 +103,20 @@ int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 
 int sign_of_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c) {
-  const double yz = b.y() * c.z();
-  const double zy = b.z() * c.y();
-  const double zx = b.z() * c.x();
-  const double xz = b.x() * c.z();
-  const double xy = b.x() * c.y();
-  const double yx = b.y() * c.x();
-  const double determinant = a.x() * (yz - zy) + a.y() * (zx - xz) + a.z() * (xy - yx);
-  const double ax = std::abs(a.x());
-  const double ay = std::abs(a.y());
-  const double az = std::abs(a.z());
-  const double permanent = ax * (std::abs(yz) + std::abs(zy)) + ay * (std::abs(zx) + std::abs(xz)) +
-                           az * (std::abs(xy) + std::abs(yx));
-  const double bound = kBound3 * permanent + kUnderflow * (ax + ay + az + 2);
-  if (determinant > bound) return 1;
-  if (determinant < -bound) return -1;
+  const Determinant determinant = determinant_of(a, b, c);
+  const double bound = kBound3 * determinant.permanent + underflow_bound(a);
+  if (determinant.value > bound) return 1;
+  if (determinant.value < -bound) return -1;
   return decide_determinant(a, b, c);
+}
+
+int orientation_towards(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c, const Eigen::Vector3d& direction) {
+  const Determinant determinant = determinant_of(direction, b - a, c - a);
+  const double bound = kDifferencesBound3 * determinant.permanent + underflow_bound(direction);
+  if (determinant.value > bound) return 1;
+  if (determinant.value < -bound) return -1;
+  return decide_orientation_towards(a, b, c, direction);
 }
 
 int sign_of_determinant(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -90,6 +133,12 @@ int in_sphere(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
               const Eigen::Vector3d& d, const Eigen::Vector3d& e) {
   return Kernel().side_of_oriented_sphere_3_object()(point(a), point(b), point(c), point(d),
                                                      point(e));
+}
+
+int in_power_sphere(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                    const WeightedPoint& d, const WeightedPoint& e) {
+  return Kernel().power_side_of_oriented_power_sphere_3_object()(point(a), point(b), point(c),
+                                                                 point(d), point(e));
 }
 
 int same_side_of_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,

@@ -11,6 +11,11 @@ namespace tetraglass::mesh {
 [[nodiscard]] int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                               const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
+/// Sign of (b - a) x (c - a) . direction: on which side of the plane through a, b and c a point
+/// lies that is infinitely far in this direction.
+[[nodiscard]] int orientation_towards(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                      const Eigen::Vector3d& c, const Eigen::Vector3d& direction);
+
 /// Sign of the determinant of the 3 x 3 matrix with columns a, b, c.
 [[nodiscard]] int sign_of_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                       const Eigen::Vector3d& c);
@@ -23,6 +28,19 @@ namespace tetraglass::mesh {
 [[nodiscard]] int in_sphere(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             const Eigen::Vector3d& c, const Eigen::Vector3d& d,
                             const Eigen::Vector3d& e);
+
+/// A point with a weight, the squared radius of a sphere around it (it may be negative).
+struct WeightedPoint {
+  Eigen::Vector3d point;
+  double weight = 0;
+};
+
+/// The same for weights: for a positively oriented tetrahedron 1 if e is in conflict with the
+/// sphere that is orthogonal to those of a, b, c and d (its power there is less than its weight),
+/// -1 if not, 0 if the sphere is orthogonal to that of e too.
+[[nodiscard]] int in_power_sphere(const WeightedPoint& a, const WeightedPoint& b,
+                                  const WeightedPoint& c, const WeightedPoint& d,
+                                  const WeightedPoint& e);
 
 /// For four coplanar points, a, b and c not collinear: 1 if c and d lie strictly on the same side
 /// of the line through a and b, -1 on opposite sides, 0 if d lies on the line.

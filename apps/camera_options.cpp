@@ -1,0 +1,71 @@
+#include "apps/camera_options.h"
+
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/options.h"
+
+namespace tetraglass::apps {
+namespace {
+
+constexpr double kDefaultFov =
+    30;  // degrees: little perspective distortion, as figures usually have
+
+/// Whether z is no good as the up direction: less than a thousandth of the gaze goes across it.
+bool is_along_z(const Eigen::Vector3d& gaze) {
+  return gaze.head<2>().stableNorm() <= 1e-3 * std::abs(gaze.z());
+}
+
+}  // namespace
+
+void add_camera_options(CLI::App* app, CameraArguments& a) {
+  app->add_option(
+      "--view", a.view,
+      "Look from this direction, the mesh framed: +x, -z, X,Y,Z, ... Default: 1,0.8,0.6");
+  app->add_option("--eye", a.eye, "X,Y,Z in the mesh's units, instead of --view");
+  app->add_option("--target", a.target,
+                  "X,Y,Z to look at, with --eye. Default: the centre of the mesh");
+  app->add_option("--up", a.up, "X,Y,Z. Default: 0,0,1 (0,1,0 when looking along z)");
+  app->add_option("--fov", a.fov, "Vertical field of view in degrees. Default: 30");
+  app->add_option("--ortho", a.ortho,
+                  "Parallel view; the height of the picture in the mesh's units");
+}
+
+project::Camera make_camera(const CameraArguments& arguments, const mesh::TetMesh& mesh,
+                            double aspect) {
+  if (!arguments.fov.empty() && !arguments.ortho.empty()) {
+    throw base::UsageError(
+        "--fov is for perspective, --ortho for parallel views: give one of them");
+  }
+  if (!arguments.eye.empty() && !arguments.view.empty()) {
+    throw base::UsageError("--view frames the mesh by itself: give --eye or --view, not both");
+  }
+  if (arguments.eye.empty() && !arguments.target.empty()) {
+    throw base::UsageError("--target needs --eye; to look from a direction use --view");
+  }
+  const double fov = arguments.fov.empty() ? kDefaultFov : parse_number(arguments.fov, "--fov");
+  if (!(fov > 0 && fov < 180))
+    throw base::UsageError("--fov must lie between 0 and 180 degrees (exclusive)");
+  const Eigen::Vector3d direction =
+      parse_direction(arguments.view.empty() ? "1,0.8,0.6" : arguments.view, "--view");
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if (!arguments.up.empty()) {
+    up = parse_vector(arguments.up, "--up");
+  } else if (arguments.eye.empty() && is_along_z(direction)) {
+    up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
+  }
+  project::Camera camera = project::frame_camera(mesh.points, direction, up, fov, aspect);
+  if (!arguments.eye.empty()) {
+    camera.eye = parse_vector(arguments.eye, "--eye");
+    camera.target = arguments.target.empty() ? mesh::bounds(mesh).center()
+                                             : parse_vector(arguments.target, "--target");
+    if (arguments.up.empty() && is_along_z(camera.target - camera.eye))
+      camera.up = Eigen::Vector3d::UnitY();
+  }
+  camera.parallel = !arguments.ortho.empty();
+  if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
+  return camera;
+}
+
+}  // namespace tetraglass::apps

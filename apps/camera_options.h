@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "mesh/tet_mesh.h"
+#include "project/camera.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tetraglass::apps {
+
+/// The camera's options as typed; empty where not given.
+struct CameraArguments {
+  std::string eye;
+  std::string target;
+  std::string up;
+  std::string fov;
+  std::string ortho;
+  std::string view;
+};
+
+void add_camera_options(CLI::App* app, CameraArguments& arguments);
+
+/// The camera that the arguments ask for; without an eye it sees all of the mesh in a picture of
+/// the given aspect (width / height). Throws UsageError.
+[[nodiscard]] project::Camera make_camera(const CameraArguments& arguments,
+                                          const mesh::TetMesh& mesh, double aspect);
+
+}  // namespace tetraglass::apps

@@ -1,0 +1,68 @@
+#include "sort/cell_sorter.h"
+
+#include <variant>
+
+#include "base/errors.h"
+#include "sort/centroid.h"
+
+namespace tetraglass::sort {
+namespace {
+
+// The centroid sorter with what it sorts.
+struct ByCentroid {
+  const mesh::TetMesh& mesh;
+  std::vector<std::uint32_t> cells;
+  CentroidSorter sorter;
+  Order sort(const View& view) { return sorter.sort(mesh, cells, view); }
+};
+
+using AnySorter = std::variant<ByCentroid>;
+
+AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells) {
+  switch (method) {
+    case Method::centroid:
+      return ByCentroid{mesh, {cells.begin(), cells.end()}, {}};
+    case Method::power:
+    case Method::mpvo:
+    case Method::none:
+    case Method::fragments:
+      break;
+  }
+  throw base::UsageError("'" + to_string(method) +
+                         "' does not order cells; there are: centroid, power, mpvo");
+}
+
+}  // namespace
+
+struct CellSorter::Sorter {
+  AnySorter any;
+};
+
+CellSorter::CellSorter(Method method, const mesh::TetMesh& mesh,
+                       std::span<const std::uint32_t> cells)
+    : sorter_(new Sorter{make(method, mesh, cells)}) {}
+CellSorter::CellSorter(CellSorter&&) noexcept = default;
+CellSorter& CellSorter::operator=(CellSorter&&) noexcept = default;
+CellSorter::~CellSorter() = default;
+
+Order CellSorter::sort(const View& view) {
+  return std::visit([&](auto& sorter) { return sorter.sort(view); }, sorter_->any);
+}
+
+std::string to_string(Method method) {
+  switch (method) {
+    case Method::none:
+      return "none";
+    case Method::centroid:
+      return "centroid";
+    case Method::power:
+      return "power";
+    case Method::mpvo:
+      return "mpvo";
+    case Method::fragments:
+      return "fragments";
+  }
+  return "";
+}
+
+}  // namespace tetraglass::sort
