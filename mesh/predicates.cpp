@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
+#include <CGAL/Mpzf.h>
 
 namespace tetraglass::mesh {
 namespace {
@@ -57,7 +57,7 @@ constexpr double kUnderflow = 0x1p-1000;
   return Kernel().orientation_3_object()(vector(a), vector(b), vector(c));
 }
 
-using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Mpzf>;
 
 [[gnu::noinline]] int decide_orientation_towards(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                                  const Eigen::Vector3d& c,
@@ -112,7 +112,14 @@ int sign_of_determinant(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 
 int orientation_towards(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c, const Eigen::Vector3d& direction) {
-  const Determinant determinant = determinant_of(direction, b - a, c - a);
+  const Eigen::Vector3d u = b - a;
+  const Eigen::Vector3d v = c - a;
+  // In grids seen along an axis many faces are edge-on, and by their zeros alone.
+  const auto no_term = [&](int i, int j, int k) {
+    return direction[i] == 0 || ((u[j] == 0 || v[k] == 0) && (u[k] == 0 || v[j] == 0));
+  };
+  if (no_term(0, 1, 2) && no_term(1, 2, 0) && no_term(2, 0, 1)) return 0;
+  const Determinant determinant = determinant_of(direction, u, v);
   const double bound = kDifferencesBound3 * determinant.permanent + underflow_bound(direction);
   if (determinant.value > bound) return 1;
   if (determinant.value < -bound) return -1;

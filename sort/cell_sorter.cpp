@@ -4,6 +4,7 @@
 
 #include "base/errors.h"
 #include "sort/centroid.h"
+#include "sort/mpvo.h"
 
 namespace tetraglass::sort {
 namespace {
@@ -16,14 +17,15 @@ struct ByCentroid {
   Order sort(const View& view) { return sorter.sort(mesh, cells, view); }
 };
 
-using AnySorter = std::variant<ByCentroid>;
+using AnySorter = std::variant<ByCentroid, MpvoSorter>;
 
 AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells) {
   switch (method) {
     case Method::centroid:
       return ByCentroid{mesh, {cells.begin(), cells.end()}, {}};
-    case Method::power:
     case Method::mpvo:
+      return MpvoSorter(mesh, cells);
+    case Method::power:
     case Method::none:
     case Method::fragments:
       break;
