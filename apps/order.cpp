@@ -15,7 +15,6 @@
 #include "apps/options.h"
 #include "apps/subcommands.h"
 #include "base/stopwatch.h"
-#include "mesh/adjacency.h"
 #include "sort/cell_sorter.h"
 #include "sort/verify.h"
 
@@ -80,7 +79,6 @@ std::optional<Method> parse_method(const std::string& text) {
                                              {{"auto", std::nullopt},
                                               {"none", Method::none},
                                               {"centroid", Method::centroid},
-                                              {"power", Method::power},
                                               {"mpvo", Method::mpvo},
                                               {"fragments", Method::fragments}});
 }
@@ -94,7 +92,7 @@ void add(sort::RayCheck& sum, const sort::RayCheck& part) {
 
 // Sorts from one view, a few times while that is quick, and checks what came out.
 void sort_and_check(sort::CellSorter& sorter, const mesh::TetMesh& mesh,
-                    const mesh::Adjacency& adjacency, const sort::View& view, std::size_t rays,
+                    const sort::CellLinks& links, const sort::View& view, std::size_t rays,
                     std::uint32_t seed, OrderReport& report) {
   constexpr int kRepetitions = 5;
   constexpr double kLongEnough = 200;  // ms
@@ -113,7 +111,7 @@ void sort_and_check(sort::CellSorter& sorter, const mesh::TetMesh& mesh,
   report.exact = report.exact && order.exact;
   report.cycles += order.cycles;
   if (report.cyclic_cells.empty()) report.cyclic_cells = order.cyclic_cells;
-  const sort::FaceCheck faces = sort::check_faces(mesh, adjacency, order.cells, view);
+  const sort::FaceCheck faces = sort::check_faces(mesh, links, order.cells, view);
   report.faces += faces.faces;
   report.wrong_faces += faces.wrong;
   if (rays > 0) add(report.rays, sort::check_rays(mesh, order.cells, view, rays, seed));
@@ -124,10 +122,9 @@ void sort_cells(Method method, const mesh::TetMesh& mesh, const std::vector<std:
   const base::Stopwatch clock;
   sort::CellSorter sorter(method, mesh, cells);
   report.prepare_ms = clock.milliseconds();
-  const mesh::Adjacency adjacency = mesh::face_adjacency(mesh);
+  const sort::CellLinks links = sort::link_cells(mesh, cells);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    sort_and_check(sorter, mesh, adjacency, views[i], rays, static_cast<std::uint32_t>(i + 1),
-                   report);
+    sort_and_check(sorter, mesh, links, views[i], rays, static_cast<std::uint32_t>(i + 1), report);
   }
 }
 
@@ -211,7 +208,7 @@ void order(const OrderArguments& arguments) {
   const std::optional<Method> method = parse_method(arguments.sort);
   const auto rays = static_cast<std::size_t>(parse_count(arguments.rays, "--rays", 0));
   if (method == Method::none) {
-    throw base::UsageError("--sort none is no order; there are: centroid, power, mpvo, fragments");
+    throw base::UsageError("--sort none is no order; there are: centroid, mpvo, fragments");
   }
   const mesh::Import imported = import_and_tell(arguments.input, arguments.import);
   const mesh::TetMesh& mesh = imported.mesh;
@@ -232,7 +229,7 @@ void order(const OrderArguments& arguments) {
   if (method == Method::fragments) {
     check_fragments(mesh, drawable.cells, views, rays, report);
   } else {
-    sort_cells(method.value_or(Method::centroid), mesh, drawable.cells, views, rays, report);
+    sort_cells(method.value_or(Method::mpvo), mesh, drawable.cells, views, rays, report);
   }
   if (arguments.json) {
     fmt::print("{}\n", to_json(report));
@@ -250,7 +247,7 @@ void add_order(CLI::App& program) {
   app->footer("usage: tetraglass order INPUT [camera] [--sort M] [--rays N] [--json]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
-  app->add_option("--sort", arguments->sort, "auto | centroid | power | mpvo | fragments")
+  app->add_option("--sort", arguments->sort, "auto | centroid | mpvo | fragments")
       ->capture_default_str();
   app->add_option("--rays", arguments->rays,
                   "Check every cell that N random rays meet, by brute force")

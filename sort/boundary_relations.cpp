@@ -188,14 +188,11 @@ class BoxTree {
     if (is_leaf(node)) return;
     const std::size_t axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
     const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) {
-      return faces_.begin() + static_cast<std::ptrdiff_t>(i);
-    };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [axis](const BoxedFace& a, const BoxedFace& b) {
-                       return a.box.low[axis] + a.box.high[axis] <
-                              b.box.low[axis] + b.box.high[axis];
-                     });
+    const auto at = [&](std::size_t i) { return faces_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(
+        at(begin), at(middle), at(end), [axis](const BoxedFace& a, const BoxedFace& b) {
+          return a.box.low[axis] + a.box.high[axis] < b.box.low[axis] + b.box.high[axis];
+        });
     const auto left = [&] { build(2 * node, begin, middle); };
     const auto right = [&] { build(2 * node + 1, middle, end); };
     constexpr std::size_t kParallel = 4096;
@@ -233,22 +230,23 @@ void add_relations(const mesh::TetMesh& mesh, const std::vector<BoundaryFace>& e
   if (seen_exits.empty()) return;
   const BoxTree tree(boxed(entries, plane));
   tbb::enumerable_thread_specific<std::vector<Relation>> found;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, seen_exits.size(), 64), [&](const auto& range) {
-        std::vector<Relation>& mine = found.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          const BoxedFace& exit = seen_exits[i];
-          const BoundaryFace& exit_face = exits[exit.face];
-          tree.for_each_behind(exit.box, [&](const BoxedFace& entry) {
-            const BoundaryFace& entry_face = entries[entry.face];
-            if (entry_face.cell == exit_face.cell) return;
-            if (hides(mesh, exit_face, entry_face, view,
-                      exit.box.in_half_space && entry.box.in_half_space)) {
-              mine.push_back({exit_face.cell, entry_face.cell});
-            }
-          });
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_exits.size(), 64),
+                    [&](const auto& range) {
+                      std::vector<Relation>& mine = found.local();
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                        const BoxedFace& exit = seen_exits[i];
+                        const BoundaryFace& exit_face = exits[exit.face];
+                        tree.for_each_behind(exit.box, [&](const BoxedFace& entry) {
+                          const BoundaryFace& entry_face = entries[entry.face];
+                          if (entry_face.cell == exit_face.cell) return;
+                          if (hides(mesh, exit_face, entry_face, view,
+                                    exit.box.in_half_space && entry.box.in_half_space,
+                                    entry.box.near > exit.box.far)) {
+                            mine.push_back({exit_face.cell, entry_face.cell});
+                          }
+                        });
+                      }
+                    });
   for (const std::vector<Relation>& part : found) {
     relations.insert(relations.end(), part.begin(), part.end());
   }

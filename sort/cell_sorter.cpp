@@ -25,13 +25,12 @@ AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::ui
       return ByCentroid{mesh, {cells.begin(), cells.end()}, {}};
     case Method::mpvo:
       return MpvoSorter(mesh, cells);
-    case Method::power:
     case Method::none:
     case Method::fragments:
       break;
   }
   throw base::UsageError("'" + to_string(method) +
-                         "' does not order cells; there are: centroid, power, mpvo");
+                         "' does not order cells; there are: centroid, mpvo");
 }
 
 }  // namespace
@@ -57,8 +56,6 @@ std::string to_string(Method method) {
       return "none";
     case Method::centroid:
       return "centroid";
-    case Method::power:
-      return "power";
     case Method::mpvo:
       return "mpvo";
     case Method::fragments:

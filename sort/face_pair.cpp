@@ -36,8 +36,8 @@ Sides sides_of(const Triangle& face, const Triangle& other) {
   return sides;
 }
 
-// Whether a plane through the eye and an edge of `a` has the inside of a's image on one side and all
-// of b's on the other. `turn` is the eye_side of a.
+// Whether a plane through the eye and an edge of `a` has the inside of a's image on one side and
+// all of b's on the other. `turn` is the eye_side of a.
 bool edge_separates(const Triangle& a, int turn, const Triangle& b, const View& view) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto outside = [&](const Vector3d* v) {
@@ -48,8 +48,8 @@ bool edge_separates(const Triangle& a, int turn, const Triangle& b, const View& 
   return false;
 }
 
-// Whether a plane through the eye, a vertex of `a` and one of `b` has them on different sides. Of two
-// cones in no common half-space the planes of their faces are not enough to tell them apart.
+// Whether a plane through the eye, a vertex of `a` and one of `b` has them on different sides. Of
+// two cones in no common half-space the planes of their faces are not enough to tell them apart.
 bool vertices_separate(const Triangle& a, const Triangle& b, const View& view) {
   for (const Vector3d* p : a.vertices) {
     for (const Vector3d* q : b.vertices) {
@@ -98,8 +98,8 @@ int compare_edges(const Vector3d& p, const Vector3d& q, const Vector3d& r, const
   return -mesh::orientation(p, q, r, s) * r_side;
 }
 
-// Of two faces whose images overlap, and neither of which lies on one side of the other one's plane,
-// whether `entry` is the farther one: seen at a corner of the overlap.
+// Of two faces whose images overlap, and neither of which lies on one side of the other one's
+// plane, whether `entry` is the farther one: seen at a corner of the overlap.
 bool is_behind_at_a_corner(const Triangle& exit, const Triangle& entry, const View& view) {
   for (const Vector3d* v : entry.vertices) {
     if (!covers(exit, -1, *v, view)) continue;
@@ -123,13 +123,16 @@ bool is_behind_at_a_corner(const Triangle& exit, const Triangle& entry, const Vi
 }  // namespace
 
 bool hides(const mesh::TetMesh& mesh, const BoundaryFace& exit_face, const BoundaryFace& entry_face,
-           const View& view, bool in_half_space) {
+           const View& view, bool in_half_space, bool farther) {
   const Triangle exit = triangle(mesh, exit_face);
   const Triangle entry = triangle(mesh, entry_face);
-  // The eye is on the inner side of the exit and on the outer side of the entry.
-  const Sides of_entry = sides_of(exit, entry);
-  if (of_entry.below && !of_entry.above) return false;
-  bool decided = !of_entry.below;
+  bool decided = farther;
+  if (!decided) {
+    // The eye is on the inner side of the exit and on the outer side of the entry.
+    const Sides of_entry = sides_of(exit, entry);
+    if (of_entry.below && !of_entry.above) return false;
+    decided = !of_entry.below;
+  }
   if (!decided) {
     const Sides of_exit = sides_of(entry, exit);
     if (of_exit.below && !of_exit.above) return false;

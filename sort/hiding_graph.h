@@ -8,7 +8,8 @@ namespace tetraglass::sort {
 
 /// Cells 0 .. size - 1 and, for each, those that hide a part of it.
 struct HidingGraph {
-  std::vector<std::uint32_t> offsets{0};  ///< cell i is hidden by fronts[offsets[i] .. offsets[i + 1])
+  std::vector<std::uint32_t> offsets{
+      0};  ///< cell i is hidden by fronts[offsets[i] .. offsets[i + 1])
   std::vector<std::uint32_t> fronts;
 
   [[nodiscard]] std::size_t size() const { return offsets.size() - 1; }
@@ -17,15 +18,15 @@ struct HidingGraph {
   }
 };
 
-/// The strongly connected components of the graph, in an order in which each comes before those that
-/// hide it. Members in no particular order. Cost: linear, no recursion. Source: Tarjan 1972,
+/// The strongly connected components of the graph, in an order in which each comes before those
+/// that hide it. Members in no particular order. Cost: linear, no recursion. Source: Tarjan 1972,
 /// "Depth-First Search and Linear Graph Algorithms".
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> strong_components(const HidingGraph& graph);
 
 /// An order of all cells in which the hidden ones come first, and where cells hide each other in a
 /// ring as few as possible do not: within a component, whenever no cell is left that hides none of
-/// those left, the one that is farthest by `depths` (one number per cell, growing away from the eye)
-/// goes next.
+/// those left, the one that is farthest by `depths` (one number per cell, growing away from the
+/// eye) goes next.
 struct ResolvedOrder {
   std::vector<std::uint32_t> cells;
   std::size_t cycles = 0;                   ///< components of more than one cell

@@ -36,23 +36,12 @@ int eye_side(const View& view, const mesh::TetMesh& mesh, std::uint32_t cell, st
 }  // namespace
 
 MpvoSorter::MpvoSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells)
-    : mesh_(mesh), adjacency_(mesh::face_adjacency(mesh)), middle_(Vector3d::Zero()) {
-  std::vector<std::uint8_t> sorted(mesh.cells.size(), 0);
-  for (const std::uint32_t cell : cells) {
-    const mesh::Cell& c = mesh.cells[cell];
-    const auto& p = mesh.points;
-    const bool has_volume = mesh::orientation(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) > 0;
-    sorted[cell] = has_volume ? 1 : 0;
-    (has_volume ? cells_ : flat_).push_back(cell);
-  }
-  std::sort(cells_.begin(), cells_.end());
-  for (const std::uint32_t cell : cells_) {
-    bool boundary = false;
-    for (std::uint32_t& neighbor : adjacency_.neighbors[cell]) {
-      if (neighbor != mesh::kNoCell && sorted[neighbor] == 0) neighbor = mesh::kNoCell;
-      boundary = boundary || neighbor == mesh::kNoCell;
+    : mesh_(mesh), links_(link_cells(mesh, cells)), middle_(Vector3d::Zero()) {
+  for (const std::uint32_t cell : links_.cells) {
+    const auto& neighbors = links_.adjacency.neighbors[cell];
+    if (std::find(neighbors.begin(), neighbors.end(), mesh::kNoCell) != neighbors.end()) {
+      boundary_cells_.push_back(cell);
     }
-    if (boundary) boundary_cells_.push_back(cell);
   }
   find_planes();
   entries_.resize(mesh.cells.size());
@@ -61,7 +50,7 @@ MpvoSorter::MpvoSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t>
 
 void MpvoSorter::find_planes() {
   mesh::Box box;
-  for (const std::uint32_t cell : cells_) {
+  for (const std::uint32_t cell : links_.cells) {
     for (const std::uint32_t v : mesh_.cells[cell]) box.extend(mesh_.points[v]);
   }
   if (!box.isEmpty()) {
@@ -69,18 +58,18 @@ void MpvoSorter::find_planes() {
     radius_ = 0.5 * box.diagonal().norm();
   }
   planes_.resize(mesh_.cells.size());
-  tbb::parallel_for(Range(0, cells_.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, links_.cells.size(), kGrain), [&](const Range& range) {
     // Below this sine of the angle between two edges the normal is too uncertain to be of use.
     constexpr double kLeastSine = 0x1p-26;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       for (std::size_t face = 0; face < 4; ++face) {
-        const auto [ia, ib, ic] = face_vertices(mesh_.cells[cells_[i]], face);
+        const auto [ia, ib, ic] = face_vertices(mesh_.cells[links_.cells[i]], face);
         const Vector3d& a = mesh_.points[ia];
         const Vector3d u = mesh_.points[ib] - a;
         const Vector3d v = mesh_.points[ic] - a;
         const Vector3d normal = u.cross(v);
         const double length = normal.norm();
-        Plane& plane = planes_[cells_[i]][face];
+        Plane& plane = planes_[links_.cells[i]][face];
         if (!(length > kLeastSine * u.norm() * v.norm()) || !std::isnormal(length)) {
           plane = {Eigen::Vector3f::Zero(), std::numeric_limits<float>::quiet_NaN()};
           continue;
@@ -92,26 +81,26 @@ void MpvoSorter::find_planes() {
   });
 }
 
-// The height of the eye over a plane is computed in float. Let u = 2^-24, e the eye and a the face's
-// first vertex, both relative to the middle. The normal in double is off by at most 2^-49 / kLeastSine
-// < u in length (Higham 2002, Accuracy and Stability, 3.1: the cross product of two rounded
-// differences, 8 roundings of |u| |v|), that in float by 2 u more: 3 u |e - a|. The offset is
-// rounded by 2 u |a|, the eye by u |e|, the sum of four terms of at most |e| and |a| by
-// 4 u (2 |e| + |a|). Together less than 12 u |e| + 9 u |a| < 2^-20 (|e| + radius). In parallel views
-// the eye is the unit vector against the direction, and the offset does not count.
+// The height of the eye over a plane is computed in float. Let u = 2^-24, e the eye and a the
+// face's first vertex, both relative to the middle. The normal in double is off by at most 2^-49 /
+// kLeastSine < u in length (Higham 2002, Accuracy and Stability, 3.1: the cross product of two
+// rounded differences, 8 roundings of |u| |v|), that in float by 2 u more: 3 u |e - a|. The offset
+// is rounded by 2 u |a|, the eye by u |e|, the sum of four terms of at most |e| and |a| by 4 u (2
+// |e| + |a|). Together less than 12 u |e| + 9 u |a| < 2^-20 (|e| + radius). In parallel views the
+// eye is the unit vector against the direction, and the offset does not count.
 void MpvoSorter::classify_faces(const View& view) {
   const Vector3d eye = view.parallel ? Vector3d(-view.direction) : Vector3d(view.eye - middle_);
   const Eigen::Vector3f e = eye.cast<float>();
   const float offset_weight = view.parallel ? 0.0F : 1.0F;
   const auto slack =
       static_cast<float>(0x1p-20 * (eye.norm() + (view.parallel ? 0.0 : radius_)) * (1 + 0x1p-20));
-  tbb::parallel_for(Range(0, cells_.size(), kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, links_.cells.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const std::uint32_t cell = cells_[i];
+      const std::uint32_t cell = links_.cells[i];
       unsigned entries = 0;
       std::uint32_t exits = 0;
       for (std::size_t face = 0; face < 4; ++face) {
-        if (adjacency_.neighbors[cell][face] == mesh::kNoCell) continue;
+        if (links_.adjacency.neighbors[cell][face] == mesh::kNoCell) continue;
         const Plane& plane = planes_[cell][face];
         const float height = plane.normal.x() * e.x() + plane.normal.y() * e.y() +
                              plane.normal.z() * e.z() + offset_weight * plane.offset;
@@ -136,7 +125,7 @@ void MpvoSorter::collect_boundary(const View& view) {
   entry_faces_.clear();
   for (const std::uint32_t cell : boundary_cells_) {
     for (std::size_t face = 0; face < 4; ++face) {
-      if (adjacency_.neighbors[cell][face] != mesh::kNoCell) continue;
+      if (links_.adjacency.neighbors[cell][face] != mesh::kNoCell) continue;
       const int side = eye_side(view, mesh_, cell, face);
       if (side == 0) continue;
       (side > 0 ? entry_faces_ : exit_faces_)
@@ -165,7 +154,7 @@ void MpvoSorter::index_relations(const std::vector<Relation>& relations) {
 template <typename F>
 void MpvoSorter::for_each_front(std::uint32_t cell, const F& f) const {
   const Faces faces = entries_[cell];
-  const auto& neighbors = adjacency_.neighbors[cell];
+  const auto& neighbors = links_.adjacency.neighbors[cell];
   for (unsigned entries = faces & kEntries; entries != 0; entries &= entries - 1) {
     f(neighbors[static_cast<std::size_t>(std::countr_zero(entries))]);
   }
@@ -189,7 +178,7 @@ void MpvoSorter::emit(std::uint32_t cell, Order& order) {
 void MpvoSorter::order_remaining(const View& view, Order& order) {
   std::vector<std::uint32_t> left;
   std::vector<double> depths;
-  for (const std::uint32_t cell : cells_) {
+  for (const std::uint32_t cell : links_.cells) {
     if (behind_[cell] == kDrawn) continue;
     Vector3d centroid = Vector3d::Zero();
     for (const std::uint32_t v : mesh_.cells[cell]) centroid += 0.25 * (mesh_.points[v] - middle_);
@@ -215,13 +204,13 @@ void MpvoSorter::order_remaining(const View& view, Order& order) {
 Order MpvoSorter::sort(const View& view) {
   Order order;
   order.method = "mpvo";
-  order.cells.reserve(cells_.size() + flat_.size());
-  order.cells = flat_;
+  order.cells.reserve(links_.cells.size() + links_.flat.size());
+  order.cells = links_.flat;
   classify_faces(view);
   collect_boundary(view);
   index_relations(boundary_relations(mesh_, exit_faces_, entry_faces_, view));
   ready_.clear();
-  for (const std::uint32_t cell : cells_) {
+  for (const std::uint32_t cell : links_.cells) {
     if (behind_[cell] != 0) continue;
     // Depth first: what a cell hides it hides soon, and both are in the cache.
     emit(cell, order);
@@ -231,13 +220,12 @@ Order MpvoSorter::sort(const View& view) {
       emit(next, order);
     }
   }
-  if (order.cells.size() < cells_.size() + flat_.size()) order_remaining(view, order);
+  if (order.cells.size() < links_.cells.size() + links_.flat.size()) order_remaining(view, order);
   order.exact = order.cycles == 0;
   return order;
 }
 
-Order sort_mpvo(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
-                const View& view) {
+Order sort_mpvo(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells, const View& view) {
   return MpvoSorter(mesh, cells).sort(view);
 }
 

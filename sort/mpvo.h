@@ -1,23 +1,24 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "mesh/adjacency.h"
 #include "mesh/tet_mesh.h"
 #include "sort/boundary_relations.h"
+#include "sort/cell_links.h"
 #include "sort/order.h"
 
 namespace tetraglass::sort {
 
-/// The meshed polyhedra visibility order: a topological order of the relations "hides", across faces
-/// between cells (Williams 1992, "Visibility-Ordering Meshed Polyhedra") and across gaps of the mesh
-/// (boundary_relations.h). Whichever the mesh (holes, parts, doubled cells), the order is exact
-/// unless cells hide each other in a ring; such cycles are found, counted and resolved with the least
-/// harm (hiding_graph.h). On which side of a face the eye is, is decided exactly, by a filter in
-/// float in all but a few of a million cases. Cells without volume come first. Keeps what does not
-/// depend on the view (88 bytes per cell) and its buffers.
+/// The meshed polyhedra visibility order: a topological order of the relations "hides", across
+/// faces between cells (Williams 1992, "Visibility-Ordering Meshed Polyhedra") and across gaps of
+/// the mesh (boundary_relations.h). Whichever the mesh (holes, parts, doubled cells), the order is
+/// exact unless cells hide each other in a ring; such cycles are found, counted and resolved with
+/// the least harm (hiding_graph.h). On which side of a face the eye is, is decided exactly, by a
+/// filter in float in all but a few of a million cases. Cells without volume come first. Keeps what
+/// does not depend on the view (88 bytes per cell) and its buffers.
 class MpvoSorter {
  public:
   /// `cells` are indices into mesh.cells of cells with finite coordinates; only these are sorted.
@@ -29,12 +30,14 @@ class MpvoSorter {
   [[nodiscard]] Order sort(const View& view);
 
  private:
-  // The plane of a face: height over it = normal . p + offset, p relative to the middle of the mesh.
+  // The plane of a face: height over it = normal . p + offset, p relative to the middle of the
+  // mesh.
   struct Plane {
     Eigen::Vector3f normal;
     float offset;
   };
-  // The faces of a cell where a ray enters from a neighbour, a bit for each, and what else it needs.
+  // The faces of a cell where a ray enters from a neighbour, a bit for each, and what else it
+  // needs.
   using Faces = std::uint8_t;
 
   void find_planes();
@@ -47,9 +50,7 @@ class MpvoSorter {
   void for_each_front(std::uint32_t cell, const F& f) const;
 
   const mesh::TetMesh& mesh_;
-  std::vector<std::uint32_t> cells_;   // with volume
-  std::vector<std::uint32_t> flat_;    // without
-  mesh::Adjacency adjacency_;          // between cells_ only
+  CellLinks links_;
   std::vector<std::array<Plane, 4>> planes_;
   std::vector<std::uint32_t> boundary_cells_;
   Eigen::Vector3d middle_;

@@ -251,23 +251,20 @@ std::vector<Ray> random_rays(const mesh::TetMesh& mesh, std::span<const std::uin
 
 }  // namespace
 
-FaceCheck check_faces(const mesh::TetMesh& mesh, const mesh::Adjacency& adjacency,
+FaceCheck check_faces(const mesh::TetMesh& mesh, const CellLinks& links,
                       std::span<const std::uint32_t> order, const View& view) {
   const std::vector<std::uint32_t> places = places_of(mesh, order);
   std::atomic<std::size_t> faces = 0;
   std::atomic<std::size_t> wrong = 0;
-  tbb::parallel_for(Range(0, mesh.cells.size(), 4096), [&](const Range& range) {
+  tbb::parallel_for(Range(0, links.cells.size(), 4096), [&](const Range& range) {
     std::size_t my_faces = 0;
     std::size_t my_wrong = 0;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const auto cell = static_cast<std::uint32_t>(i);
-      if (places[cell] == kNoPlace || !has_volume(mesh, cell)) continue;
+      const std::uint32_t cell = links.cells[i];
+      if (places[cell] == kNoPlace) continue;
       for (std::size_t face = 0; face < 4; ++face) {
-        const std::uint32_t neighbor = adjacency.neighbors[i][face];
-        if (neighbor == mesh::kNoCell || neighbor < cell || places[neighbor] == kNoPlace ||
-            !has_volume(mesh, neighbor)) {
-          continue;
-        }
+        const std::uint32_t neighbor = links.adjacency.neighbors[cell][face];
+        if (neighbor == mesh::kNoCell || neighbor < cell || places[neighbor] == kNoPlace) continue;
         const auto vertex = [&](std::size_t k) -> const Vector3d& {
           return mesh
               .points[mesh.cells[cell][static_cast<std::size_t>(mesh::kFaceVertices[face][k])]];

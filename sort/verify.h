@@ -5,20 +5,19 @@
 #include <span>
 #include <vector>
 
-#include "mesh/adjacency.h"
 #include "mesh/tet_mesh.h"
+#include "sort/cell_links.h"
 #include "sort/order.h"
 
 namespace tetraglass::sort {
 
 /// How many faces between two cells of the order are drawn in the wrong order: the eye lies
-/// strictly on the side of the cell that is drawn first. Decided exactly. Both cells have volume;
-/// faces of cells without volume, or that the order lacks, do not count. In parallel.
+/// strictly on the side of the cell that is drawn first. Decided exactly. In parallel.
 struct FaceCheck {
-  std::size_t faces = 0;  ///< between two cells of the order, with volume, not seen edge-on
+  std::size_t faces = 0;  ///< that are not seen edge-on
   std::size_t wrong = 0;
 };
-[[nodiscard]] FaceCheck check_faces(const mesh::TetMesh& mesh, const mesh::Adjacency& adjacency,
+[[nodiscard]] FaceCheck check_faces(const mesh::TetMesh& mesh, const CellLinks& links,
                                     std::span<const std::uint32_t> order, const View& view);
 
 /// How many of `count` random rays meet two cells in the wrong order. A ray is checked against

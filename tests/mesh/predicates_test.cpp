@@ -229,5 +229,45 @@ TEST(Collinear, IsExact) {
   EXPECT_FALSE(collinear(Vector3d(0, 0, 0), a, Vector3d(0.2, 0.4, nudge(0.6, 1))));
 }
 
+// Towards a point infinitely far: random, near-coplanar and exactly coplanar directions.
+TEST(Predicates, OrientationTowardsADirectionIsExact) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return Vector3d(unit(random), unit(random), unit(random)); };
+  int undecided = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d a = vector();
+    const Vector3d b = vector();
+    const Vector3d c = vector();
+    Vector3d d = vector();
+    if (i % 3 == 1) d = unit(random) * (b - a) + unit(random) * (c - a);
+    if (i % 3 == 2) d = 2 * (b - a);
+    const Exact3 o = exact(a);
+    const int expected = sign(determinant(minus(exact(b), o), minus(exact(c), o), exact(d)));
+    ASSERT_EQ(orientation_towards(a, b, c, d), expected) << i;
+    ASSERT_EQ(orientation_towards(b, a, c, d), -expected) << i;
+    undecided += expected == 0 ? 1 : 0;
+  }
+  EXPECT_LT(undecided, 1000);
+  EXPECT_EQ(orientation_towards({0, 0, 3}, {1, 0, 3}, {0, 1, 3}, {5, 7, 0}), 0);
+  EXPECT_EQ(orientation_towards({0, 0, 3}, {1, 0, 3}, {0, 1, 3}, {5, 7, 1e-300}), 1);
+  EXPECT_EQ(orientation_towards({0, 0, 0}, {1, -1, 0}, {0, 0, 1}, {1, -1, 0.5}), 0);
+}
+
+// Without weights the sphere is the circumsphere; a weight moves its border.
+TEST(Predicates, InPowerSphereTakesWeights) {
+  const WeightedPoint a{{0, 0, 0}, 0};
+  const WeightedPoint b{{1, 0, 0}, 0};
+  const WeightedPoint c{{0, 1, 0}, 0};
+  const WeightedPoint d{{0, 0, 1}, 0};
+  EXPECT_EQ(in_power_sphere(a, b, c, d, {{1, 1, 1}, 0}), 0);
+  EXPECT_EQ(in_power_sphere(a, b, c, d, {{1, 1, 1}, 1e-300}), 1);
+  EXPECT_EQ(in_power_sphere(a, b, c, d, {{1, 1, 1}, -1e-300}), -1);
+  EXPECT_EQ(in_power_sphere(b, a, c, d, {{1, 1, 1}, 1e-300}), -1);
+  // Power of (2,2,2) with respect to the circumsphere of centre 1/2 and radius^2 3/4: 6.
+  EXPECT_EQ(in_power_sphere(a, b, c, d, {{2, 2, 2}, 6}), 0);
+  EXPECT_EQ(in_power_sphere(a, b, c, d, {{2, 2, 2}, 5.9}), -1);
+}
+
 }  // namespace
 }  // namespace tetraglass::mesh

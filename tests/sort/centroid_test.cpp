@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "mesh/samples.h"
+#include "sort/views.h"
 #include "support/meshes.h"
 
 namespace tetraglass::sort {
 namespace {
 
 using Eigen::Vector3d;
-
-std::vector<std::uint32_t> all_cells(const mesh::TetMesh& mesh) {
-  std::vector<std::uint32_t> cells(mesh.cells.size());
-  std::iota(cells.begin(), cells.end(), 0U);
-  return cells;
-}
 
 Vector3d centroid(const mesh::TetMesh& mesh, std::uint32_t cell) {
   Vector3d sum = Vector3d::Zero();
@@ -32,13 +26,6 @@ Vector3d centroid(const mesh::TetMesh& mesh, std::uint32_t cell) {
 double depth(const mesh::TetMesh& mesh, std::uint32_t cell, const View& view) {
   const Vector3d c = centroid(mesh, cell);
   return view.parallel ? view.direction.dot(c) : (c - view.eye).squaredNorm();
-}
-
-View parallel(const Vector3d& direction) {
-  return {true, Vector3d::Zero(), direction.normalized()};
-}
-View from(const Vector3d& eye) {
-  return {false, eye, -Vector3d::UnitZ()};
 }
 
 // `order` holds exactly `cells`, and no cell is followed by one that is farther by more than
