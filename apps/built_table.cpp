@@ -112,36 +112,39 @@ preint::Entries build_material(const TableTask& t) {
 }
 
 std::vector<preint::Entries> build_weighted(const TableTask& t) {
-  std::vector<preint::Entries> parts(2);
+  std::vector<preint::Entries> parts;
   if (t.m > 0) {
     auto tables = ramped_tables_3d(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis);
-    parts = {std::move(tables.front.rgba), std::move(tables.back.rgba)};
+    parts.push_back(std::move(tables.front.rgba));
+    parts.push_back(std::move(tables.back.rgba));
   } else {
     auto tables = ramped_tables(t.tf, t.low, t.high, t.length, t.n, t.method);
-    parts = {std::move(tables.front.rgba), std::move(tables.back.rgba)};
+    parts.push_back(std::move(tables.front.rgba));
+    parts.push_back(std::move(tables.back.rgba));
   }
   return parts;
 }
 
-std::vector<preint::Entries> build_entries(const TableTask& t) {
+/// Of all kinds with one table.
+preint::Entries build_entries(const TableTask& t) {
   switch (t.kind) {
     case TableKind::emission:
-      return {emission_table(t.tf, t.low, t.high, t.n, t.method).rgba};
+      return emission_table(t.tf, t.low, t.high, t.n, t.method).rgba;
     case TableKind::mip:
-      return {mip_table(t.tf, t.low, t.high, t.n, t.method, t.mip_of).rgba};
+      return mip_table(t.tf, t.low, t.high, t.n, t.method, t.mip_of).rgba;
     case TableKind::iso:
-      return {iso_table(t.surfaces, t.low, t.high, t.n, t.thickening, t.method).rgba};
+      return iso_table(t.surfaces, t.low, t.high, t.n, t.thickening, t.method).rgba;
     case TableKind::full2d:
-      return {slab_table(t.tf, t.low, t.high, t.length, t.n, t.method).rgba};
+      return slab_table(t.tf, t.low, t.high, t.length, t.n, t.method).rgba;
     case TableKind::full3d:
-      return {full_table(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis).rgba};
+      return full_table(t.tf, t.low, t.high, t.length, t.n, t.m, t.method, t.axis).rgba;
     case TableKind::weighted:
-      return build_weighted(t);
+      break;
     case TableKind::material:
-      return {build_material(t)};
+      return build_material(t);
     case TableKind::psi: {
       const preint::PsiTable table = preint::psi_table(t.n);
-      return {preint::Entries(table.psi.begin(), table.psi.end())};
+      return {table.psi.begin(), table.psi.end()};
     }
   }
   return {};
@@ -152,7 +155,11 @@ std::vector<preint::Entries> build_entries(const TableTask& t) {
 BuiltTable build(const TableTask& task) {
   const auto n = static_cast<std::size_t>(task.n);
   BuiltTable result;
-  result.parts = build_entries(task);
+  if (task.kind == TableKind::weighted) {
+    result.parts = build_weighted(task);
+  } else {
+    result.parts.push_back(build_entries(task));
+  }
   result.shape = {n, n};
   if (task.m > 0) result.shape.insert(result.shape.begin(), static_cast<std::size_t>(task.m));
   if (task.kind == TableKind::weighted) result.shape.insert(result.shape.begin(), 2);

@@ -3,11 +3,13 @@
 #include <mutex>
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "base/errors.h"
 #include "preint/segment_integral.h"
 #include "preint/table.h"
 #include "preint/table_entries.h"
+#include "tests/preint/media.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -87,6 +89,36 @@ TEST_P(MethodCase, IsTheIntegralInDouble) {
         for (const int times : written) ASSERT_EQ(times, 1);
       }
     }
+  }
+}
+
+/// All entries in double, [back][front].
+std::vector<LightSpan> spans(const TransferFunction& tf, int n, double length, TableMethod method) {
+  std::vector<LightSpan> result(static_cast<std::size_t>(n * n));
+  table_entries<LightSpan>(tf, -2, 2, n, {length}, kFinest, method,
+                           [&](std::size_t, int f, int b, const LightSpan& span, int) {
+                             result[static_cast<std::size_t>(b * n + f)] = span;
+                           });
+  return result;
+}
+
+RC_GTEST_PROP(FullTableProperty, IncrementalIsBruteForceOnRandomTransferFunctions, ()) {
+  const auto tf = *tests::transfer_function();
+  const int n = *rc::gen::inRange(2, 70);
+  const double length = *rc::gen::element(1e-6, 0.1, 1.0, 30.0);
+  const auto fast = spans(tf, n, length, TableMethod::incremental);
+  const auto slow = spans(tf, n, length, TableMethod::brute_force);
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    RC_ASSERT(std::abs(fast[i].red - slow[i].red) <= 1e-12);
+    RC_ASSERT(std::abs(fast[i].green - slow[i].green) <= 1e-12);
+    RC_ASSERT(std::abs(fast[i].blue - slow[i].blue) <= 1e-12);
+    RC_ASSERT(std::abs(fast[i].transmittance - slow[i].transmittance) <= 1e-12);
+    RC_ASSERT(fast[i].transmittance >= 0 && fast[i].transmittance <= 1);
+  }
+  const auto in_float = slab_table(tf, -2, 2, length, n).rgba;
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    RC_ASSERT(std::abs(in_float[4 * i] - slow[i].red) <= 1e-5);
+    RC_ASSERT(std::abs(in_float[4 * i + 3] - (1 - slow[i].transmittance)) <= 1e-5);
   }
 }
 
