@@ -153,7 +153,7 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
                              : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
 }
 
-void plan_projector(const Scene& scene, Plan& plan) {
+void plan_projector(Plan& plan) {
   switch (plan.projector) {
     case Projector::gl:
       plan.reasons.emplace_back("projector: gl, cell projection in float");
@@ -163,10 +163,6 @@ void plan_projector(const Scene& scene, Plan& plan) {
           "projector: reference, double precision, one ray at a time: slow, judges the others");
       return;
     case Projector::cpu:
-      if (scene.mode == Mode::iso) {
-        throw base::UsageError("--projector cpu has no mode " + to_string(scene.mode) +
-                               " yet; use --projector gl");
-      }
       plan.reasons.emplace_back("projector: cpu, tiles and vectors, all threads, no GL");
       return;
   }
@@ -177,7 +173,7 @@ void plan_projector(const Scene& scene, Plan& plan) {
 Plan plan(const Scene& scene, const Request& request) {
   Plan plan;
   plan.projector = request.projector.value_or(Projector::gl);
-  plan_projector(scene, plan);
+  plan_projector(plan);
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);
     plan.reasons.push_back("context: " + to_string(plan.context) +

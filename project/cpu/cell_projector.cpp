@@ -21,6 +21,7 @@ CellProjector::CellProjector(const Scene& scene, const Plan& plan)
   middle_ = 0.5 * box.min() + 0.5 * box.max();
   const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
   if (half_diagonal > 0) radius_ = half_diagonal;
+  if (scene.mode == Mode::iso) surfaces_.emplace(scene, cells_);
   if (scene.mode == Mode::thickness || scene.mode == Mode::iso) return;
   medium_.emplace(scene.transfer_function, cells_.scale, radius_);
   intervals_ = cell_intervals(*medium_, cells_);
@@ -41,9 +42,11 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   picture.opaque = static_cast<float>(1 - plan_.opaque_at);
   picture.cells = &cells_;
   picture.points = &points_;
+  picture.bounds = bins_.bounds();
   picture.projection = &projection;
   picture.medium = medium_ ? &*medium_ : nullptr;
   picture.intervals = intervals_;
+  picture.surfaces = surfaces_ ? &*surfaces_ : nullptr;
   picture.image = &image;
   const std::vector<std::uint32_t> tiles = bins_.largest_first();
   std::atomic<std::uint64_t> fragments{0};

@@ -6,6 +6,7 @@
 #include "project/camera.h"
 #include "project/cpu/drawn_cells.h"
 #include "project/cpu/medium.h"
+#include "project/cpu/surfaces.h"
 #include "project/cpu/tile_bins.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
@@ -39,6 +40,7 @@ class CellProjector {
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::optional<Medium> medium_;
   std::vector<IntervalRange> intervals_;
+  std::optional<Surfaces> surfaces_;
   ViewPoints points_;
   TileBins bins_;
 };

@@ -102,17 +102,17 @@ float ValueScale::scaled(double value) const {
 }
 
 DrawnCells::DrawnCells(const Scene& scene) : scale(scene.field) {
-  const std::vector<std::uint32_t> shown = shown_cells(scene, scale);
+  numbers = shown_cells(scene, scale);
   const std::vector<double>& values = scene.field.values;
   const bool of_cells = scene.field.location == mesh::Location::cell;
-  vertices.resize(shown.size());
-  mirrored.resize(shown.size());
-  if (of_cells) cell_values.resize(shown.size());
-  base::parallel_ranges(shown.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  vertices.resize(numbers.size());
+  mirrored.resize(numbers.size());
+  if (of_cells) cell_values.resize(numbers.size());
+  base::parallel_ranges(numbers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      vertices[i] = scene.mesh->cells[shown[i]];
+      vertices[i] = scene.mesh->cells[numbers[i]];
       mirrored[i] = sort_vertices(vertices[i]) ? 1 : 0;
-      if (of_cells) cell_values[i] = scale.scaled(values[shown[i]]);
+      if (of_cells) cell_values[i] = scale.scaled(values[numbers[i]]);
     }
   });
   if (of_cells) return;

@@ -38,6 +38,8 @@ struct DrawnCells {
   /// numbers, and agree on it to the last bit.
   std::vector<mesh::Cell> vertices;
 
+  std::vector<std::uint32_t> numbers;  ///< in the mesh
+
   /// 1 where ascending order turns the cell inside out, else 0.
   std::vector<std::uint8_t> mirrored;
 

@@ -25,22 +25,23 @@ namespace tetraglass::project::cpu::HWY_NAMESPACE {
 /// Blocks that take no part in a pass.
 inline constexpr std::uint16_t kNoLine = 0xffff;
 
-/// int kappa c exp(-tau) dl: the segments of each cell, shaded, go to the delay line of their
-/// block.
-class FullShader : public MediumShader {
+/// The delay lines of a tile's blocks, and which cells still matter to them.
+class OrderedBlocks {
  public:
   /// `lines_of_blocks`: the delay line of each block of the tile or kNoLine.
-  FullShader(const Picture& picture, FragmentLines& lines,
-             std::span<const std::uint16_t> lines_of_blocks)
-      : MediumShader(picture),
-        points_(*picture.points),
+  OrderedBlocks(const Picture& picture, FragmentLines& lines,
+                std::span<const std::uint16_t> lines_of_blocks)
+      : vertices_(picture.cells->vertices.data()),
+        points_(picture.points->exact.data()),
         projection_(*picture.projection),
         lines_(lines),
         lines_of_blocks_(lines_of_blocks) {}
 
-  HWY_INLINE bool begin(std::uint32_t cell) {
-    nearest_ = nearest_key(cell);
-    return MediumShader::begin(cell);
+  HWY_INLINE void begin(std::uint32_t cell) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : vertices_[cell]) nearest = std::min(nearest, points_[v].z);
+    nearest_ = static_cast<float>(
+        projection_.perspective ? 2 * (nearest / projection_.middle_depth - 1) : 2 * nearest);
   }
 
   /// Behind an opaque block only what comes too late matters: it has to be told.
@@ -51,11 +52,37 @@ class FullShader : public MediumShader {
     return !state.opaque || nearest_ < state.opaque_key;
   }
 
+  HWY_INLINE void insert(std::size_t block, Lanes covered, const Fragment& fragment) {
+    lines_.insert(lines_of_blocks_[block], block, covered, fragment);
+  }
+
+ private:
+  const mesh::Cell* vertices_;
+  const ViewPoint* points_;
+  const Projection& projection_;
+  FragmentLines& lines_;
+  std::span<const std::uint16_t> lines_of_blocks_;
+  float nearest_ = 0;  // no fragment of the cell in work has a key below this
+};
+
+/// int kappa c exp(-tau) dl: the segments of each cell, shaded, go to the delay line of their
+/// block.
+class FullShader : public MediumShader {
+ public:
+  FullShader(const Picture& picture, int, int, OrderedBlocks& blocks)
+      : MediumShader(picture), blocks_(blocks) {}
+
+  HWY_INLINE bool begin(std::uint32_t cell) {
+    blocks_.begin(cell);
+    return MediumShader::begin(cell);
+  }
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const { return blocks_.wants(block); }
+
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
     const Float length = hn::IfThenElseZero(covered, s.length);
     Fragment f;
-    f.channel = {s.key, set(0), set(0), set(0), set(0)};
+    f.channel = {hn::Add(s.near, s.far), set(0), set(0), set(0), set(0)};
     // In a cell seen in perspective the field may rise along one ray and fall along another.
     const Lanes falling = hn::And(covered, hn::Lt(s.back, s.front));
     const bool descend = !hn::AllFalse(FloatTag(), falling);
@@ -69,7 +96,7 @@ class FullShader : public MediumShader {
                      [&](const MediumInterval& interval, const IntervalPart& part)
                          HWY_ATTR { add_beside(shade(interval, part), falling, f); });
     }
-    lines_.insert(lines_of_blocks_[block], block, covered, f);
+    blocks_.insert(block, covered, f);
   }
 
  private:
@@ -115,21 +142,7 @@ class FullShader : public MediumShader {
     f.channel[4] = hn::MulAdd(of_part, part.opacity, hn::Mul(of_sum, f.channel[4]));
   }
 
-  /// No fragment of the cell has a key below this (see TileRaster).
-  [[nodiscard]] HWY_INLINE float nearest_key(std::uint32_t cell) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : cells_.vertices[cell]) {
-      nearest = std::min(nearest, points_.exact[v].z);
-    }
-    return static_cast<float>(projection_.perspective ? 2 * (nearest / projection_.middle_depth - 1)
-                                                      : 2 * nearest);
-  }
-
-  const ViewPoints& points_;
-  const Projection& projection_;
-  FragmentLines& lines_;
-  std::span<const std::uint16_t> lines_of_blocks_;
-  float nearest_ = 0;
+  OrderedBlocks& blocks_;
 };
 
 }  // namespace tetraglass::project::cpu::HWY_NAMESPACE

@@ -29,6 +29,15 @@ void extend_to_infinity(double a, double a_z, double b, double b_z, float& low, 
   if (-at_eye_plane <= uncertainty) low = -kInfinity;
 }
 
+/// The tiles that the bounds touch.
+template <class F>
+void for_tiles(const TileBins::CellBounds& bounds, std::size_t size, const F& visit) {
+  if (bounds.first_x > bounds.last_x) return;
+  for (std::size_t y = bounds.first_y / size; y <= bounds.last_y / size; ++y) {
+    for (std::size_t x = bounds.first_x / size; x <= bounds.last_x / size; ++x) visit(x, y);
+  }
+}
+
 }  // namespace
 
 PixelBounds pixel_bounds(const mesh::Cell& cell, const ViewPoints& points, int width, int height) {
@@ -67,7 +76,8 @@ void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int wid
                       int tile_size) {
   tiles_x_ = static_cast<std::size_t>((width + tile_size - 1) / tile_size);
   tiles_y_ = static_cast<std::size_t>((height + tile_size - 1) / tile_size);
-  ranges_.resize(cells.size());
+  const auto size = static_cast<std::size_t>(tile_size);
+  bounds_.resize(cells.size());
   // Chunks of a fixed size, not one per thread: the order of the entries must not depend on
   // threads. Not too many either: each has a count per tile.
   constexpr std::size_t kMostCounts = std::size_t{1} << 22;
@@ -80,16 +90,13 @@ void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int wid
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
         const PixelBounds bounds = pixel_bounds(cells.vertices[i], points, width, height);
-        TileRange& range = ranges_[i];
-        range = {};
+        bounds_[i] = {};
         if (bounds.empty()) continue;
-        range = {static_cast<std::uint16_t>(bounds.first_x / tile_size),
-                 static_cast<std::uint16_t>(bounds.first_y / tile_size),
-                 static_cast<std::uint16_t>(bounds.last_x / tile_size),
-                 static_cast<std::uint16_t>(bounds.last_y / tile_size)};
-        for (std::size_t y = range.first_y; y <= range.last_y; ++y) {
-          for (std::size_t x = range.first_x; x <= range.last_x; ++x) ++counts[y * tiles_x_ + x];
-        }
+        bounds_[i] = {
+            static_cast<std::uint16_t>(bounds.first_x), static_cast<std::uint16_t>(bounds.first_y),
+            static_cast<std::uint16_t>(bounds.last_x), static_cast<std::uint16_t>(bounds.last_y)};
+        for_tiles(bounds_[i], size,
+                  [&](std::size_t x, std::size_t y) { ++counts[y * tiles_x_ + x]; });
       }
     }
   });
@@ -110,13 +117,10 @@ void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int wid
     for (std::size_t chunk = first; chunk < end; ++chunk) {
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
-        const TileRange& range = ranges_[i];
-        for (std::size_t y = range.first_y; y <= range.last_y; ++y) {
-          for (std::size_t x = range.first_x; x <= range.last_x; ++x) {
-            const std::size_t tile = y * tiles_x_ + x;
-            entries_[starts_[tile] + counts[tile]++] = static_cast<std::uint32_t>(i);
-          }
-        }
+        for_tiles(bounds_[i], size, [&](std::size_t x, std::size_t y) {
+          const std::size_t tile = y * tiles_x_ + x;
+          entries_[starts_[tile] + counts[tile]++] = static_cast<std::uint32_t>(i);
+        });
       }
     }
   });

@@ -34,6 +34,15 @@ class TileBins {
   void assign(const DrawnCells& cells, const ViewPoints& points, int width, int height,
               int tile_size);
 
+  /// The pixels of each cell; meaningless for cells that are in no tile.
+  struct CellBounds {
+    std::uint16_t first_x = 1;
+    std::uint16_t first_y = 1;
+    std::uint16_t last_x = 0;
+    std::uint16_t last_y = 0;
+  };
+  [[nodiscard]] std::span<const CellBounds> bounds() const { return bounds_; }
+
   [[nodiscard]] std::size_t tiles() const { return tiles_x_ * tiles_y_; }
   [[nodiscard]] std::size_t tiles_x() const { return tiles_x_; }
   [[nodiscard]] std::span<const std::uint32_t> cells(std::size_t tile) const {
@@ -44,17 +53,9 @@ class TileBins {
   [[nodiscard]] std::vector<std::uint32_t> largest_first() const;
 
  private:
-  /// Tiles [first, last] each way; none where first > last.
-  struct TileRange {
-    std::uint16_t first_x = 1;
-    std::uint16_t first_y = 1;
-    std::uint16_t last_x = 0;
-    std::uint16_t last_y = 0;
-  };
-
   std::size_t tiles_x_ = 0;
   std::size_t tiles_y_ = 0;
-  std::vector<TileRange> ranges_;       // of each cell
+  std::vector<CellBounds> bounds_;
   std::vector<std::uint32_t> counts_;   // [chunk of cells][tile]
   std::vector<std::size_t> starts_;     // of each tile in entries_, and the end
   std::vector<std::uint32_t> entries_;  // cells

@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 #include <hwy/highway.h>
 
+#include "project/cpu/iso_shader-inl.h"
 #include "project/cpu/ordered_shader-inl.h"
 #include "project/cpu/tile_raster-inl.h"
 #include "project/cpu/tile_shaders-inl.h"
@@ -108,7 +109,8 @@ std::vector<std::uint16_t> blend_blocks(const Picture& picture, int x, int y,
     lines.clear(i);
     image.clear(blocks[i]);
   }
-  Shader shader(picture, lines, lines_of_blocks);
+  OrderedBlocks ordered(picture, lines, lines_of_blocks);
+  Shader shader(picture, x, y, ordered);
   segments += rasterize(picture, x, y, cells, buffers, shader);
   std::vector<std::uint16_t> violated;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -170,7 +172,7 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
     case Mode::full:
       return blend_tile<FullShader>(picture, x, y, cells, buffers);
     case Mode::iso:
-      break;
+      return blend_tile<IsoShader>(picture, x, y, cells, buffers);
   }
   return {};
 }

@@ -50,7 +50,8 @@ struct BlockSegments {
   Float front;  ///< scaled values, without meaning where the shader has no use for them
   Float back;
   Float length;  ///< in units of the projection's radius
-  Float key;     ///< twice the depth of the middle, in parallel views; twice its z / m - 1 else
+  Float near;    ///< z / m - 1 of the entry, in parallel views its depth
+  Float far;     ///< ... and of the exit
 };
 
 /// The horizontal or vertical pixel offset of each lane in its block.
@@ -100,7 +101,7 @@ inline constexpr auto kFrontToBack = [] {
 
 /// Feeds a shader with the segments of a tile. A shader has
 ///   static constexpr bool kValues;        whether it reads front and back
-///   static constexpr bool kKeys;          whether it reads the key
+///   static constexpr bool kKeys;          whether it reads near and far
 ///   bool begin(std::uint32_t cell);       false: the cell shows nothing
 ///   bool wants(std::size_t block);        false: the segments there show nothing
 ///   void add(std::size_t block, Lanes covered, const BlockSegments&);
@@ -193,8 +194,7 @@ class TileRaster {
     if (front == 15) return;
     const mesh::Cell& vertices = picture_.cells->vertices[cell];
     if (!shader_.begin(cell)) return;
-    const PixelBounds bounds =
-        pixel_bounds(vertices, *picture_.points, picture_.image->width, picture_.image->height);
+    const TileBins::CellBounds& bounds = picture_.bounds[cell];
     first_x_ = std::max(bounds.first_x - tile_x_, 0) / kBlockWidth;
     first_y_ = std::max(bounds.first_y - tile_y_, 0) / kBlockHeight;
     last_x_ = std::min(bounds.last_x - tile_x_, tile_size_ - 1) / kBlockWidth;
@@ -253,18 +253,26 @@ class TileRaster {
   HWY_INLINE void draw_blocks(const CellPlanes<kFaces>& planes, float second, float third) {
     const Float side1 = set(second);
     const Float side2 = set(third);
-    for (int by = first_y_; by <= last_y_; ++by) {
-      const int top = by * kBlockHeight - tile_size_ / 2;
+    // What the stores of the shader cannot change.
+    const int first_x = first_x_;
+    const int last_x = last_x_;
+    const int last_y = last_y_;
+    const int half_tile = tile_size_ / 2;
+    const int columns = tile_size_ / kBlockWidth;
+    const Float in_block_x = in_block_x_;
+    std::uint64_t segments = 0;
+    for (int by = first_y_; by <= last_y; ++by) {
+      const int top = by * kBlockHeight - half_tile;
       const Float y = hn::Add(in_block_y_, set(static_cast<float>(top)));
       std::array<Float, kFaces> row;
       for (std::size_t k = 0; k < kFaces; ++k) {
         row[k] = hn::MulAdd(planes.depth[k].dy, y, planes.depth[k].start);
       }
-      for (int bx = first_x_; bx <= last_x_; ++bx) {
-        const auto block = static_cast<std::size_t>(by * (tile_size_ / kBlockWidth) + bx);
+      for (int bx = first_x; bx <= last_x; ++bx) {
+        const auto block = static_cast<std::size_t>(by * columns + bx);
         if (!shader_.wants(block)) continue;
-        const int left = bx * kBlockWidth - tile_size_ / 2;
-        const Float x = hn::Add(in_block_x_, set(static_cast<float>(left)));
+        const int left = bx * kBlockWidth - half_tile;
+        const Float x = hn::Add(in_block_x, set(static_cast<float>(left)));
         std::array<Float, kFaces> p;
         for (std::size_t k = 0; k < kFaces; ++k) {
           p[k] = hn::MulAdd(planes.depth[k].dx, x, row[k]);
@@ -303,10 +311,11 @@ class TileRaster {
           if constexpr (kFaces == 5) s.back = hn::IfThenElse(hn::Eq(s.exit, p[4]), v[4], s.back);
         }
         finish(block, s);
-        segments_ += hn::CountTrue(FloatTag(), covered);
+        segments += hn::CountTrue(FloatTag(), covered);
         shader_.add(block, covered, s);
       }
     }
+    segments_ += segments;
   }
 
   /// Lengths, and in perspective values, from what is linear over the picture.
@@ -320,7 +329,8 @@ class TileRaster {
       // z / m - 1 = d / (1 - d) for the depth d = 1 - m / z: exact far away, where z / m is
       // nearly 1.
       if constexpr (Shader::kKeys) {
-        s.key = hn::MulAdd(s.entry, near, hn::Mul(s.exit, far));
+        s.near = hn::Mul(s.entry, near);
+        s.far = hn::Mul(s.exit, far);
       }
       if constexpr (Shader::kValues) {
         s.front = hn::Mul(s.front, near);
@@ -328,7 +338,8 @@ class TileRaster {
       }
     } else {
       s.length = depth;
-      if constexpr (Shader::kKeys) s.key = hn::Add(s.entry, s.exit);
+      s.near = s.entry;
+      s.far = s.exit;
     }
     if constexpr (Shader::kValues) {  // rounding of steep faces
       s.front = hn::Min(hn::Max(s.front, low_), high_);

@@ -64,7 +64,7 @@ class ThicknessShader {
 class MediumShader {
  public:
   static constexpr bool kValues = true;
-  static constexpr bool kKeys = true;  // no more work where they are not read
+  static constexpr bool kKeys = true;
 
   explicit MediumShader(const Picture& picture)
       : cells_(*picture.cells),

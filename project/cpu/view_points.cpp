@@ -15,6 +15,7 @@ Projection::Projection(const Frame& frame, double unit, const Eigen::Vector3d& m
       focal(frame.height() / (2 * frame.half_height())),
       center_x(0.5 * frame.width() - 0.5),
       center_y(0.5 * frame.height() - 0.5),
+      axes(frame.axes()),
       depth_offset(frame.parallel() ? frame.to_camera(middle).z() : 0),
       middle_depth(std::max(1.0, frame.to_camera(middle).z() / unit)) {}
 

@@ -18,7 +18,8 @@ struct Projection {
   double focal;     ///< pixels per unit of the image plane
   double center_x;  ///< the pixel (fractional, centres at whole numbers) on the camera's axis
   double center_y;
-  double depth_offset;  ///< of parallel views
+  Eigen::Matrix3d axes;  ///< of the camera (see Frame)
+  double depth_offset;   ///< of parallel views
   /// Depth at which the depths of perspective views, 1 - middle_depth / z, are 0 (and finest): that
   /// of `middle` or more.
   double middle_depth;
