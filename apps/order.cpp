@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,7 @@ struct OrderArguments : CameraArguments {
   std::string sort = "auto";
   std::string rays = "0";
   std::string views;
+  std::string weights;
   bool json = false;
   mesh::ImportOptions import;
 };
@@ -79,6 +81,7 @@ std::optional<Method> parse_method(const std::string& text) {
                                              {{"auto", std::nullopt},
                                               {"none", Method::none},
                                               {"centroid", Method::centroid},
+                                              {"power", Method::power},
                                               {"mpvo", Method::mpvo},
                                               {"fragments", Method::fragments}});
 }
@@ -117,10 +120,24 @@ void sort_and_check(sort::CellSorter& sorter, const mesh::TetMesh& mesh,
   if (rays > 0) add(report.rays, sort::check_rays(mesh, order.cells, view, rays, seed));
 }
 
-void sort_cells(Method method, const mesh::TetMesh& mesh, const std::vector<std::uint32_t>& cells,
+// Without a method: power if the mesh allows it, else mpvo.
+sort::CellSorter make_sorter(std::optional<Method> method, const mesh::TetMesh& mesh,
+                             const std::vector<std::uint32_t>& cells,
+                             const std::vector<double>& weights) {
+  if (method) return {*method, mesh, cells, weights};
+  try {
+    return {Method::power, mesh, cells, weights};
+  } catch (const base::InputError& reason) {
+    fmt::print(stderr, "mpvo: {}\n", reason.what());
+    return {Method::mpvo, mesh, cells};
+  }
+}
+
+void sort_cells(std::optional<Method> method, const mesh::TetMesh& mesh,
+                const std::vector<std::uint32_t>& cells, const std::vector<double>& weights,
                 const std::vector<sort::View>& views, std::size_t rays, OrderReport& report) {
   const base::Stopwatch clock;
-  sort::CellSorter sorter(method, mesh, cells);
+  sort::CellSorter sorter = make_sorter(method, mesh, cells, weights);
   report.prepare_ms = clock.milliseconds();
   const sort::CellLinks links = sort::link_cells(mesh, cells);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -204,11 +221,27 @@ std::vector<sort::View> chosen_views(const OrderArguments& arguments, const mesh
   return random_views(mesh, static_cast<std::size_t>(parse_count(arguments.views, "--views", 1)));
 }
 
+std::vector<double> chosen_weights(const OrderArguments& arguments, std::optional<Method> method,
+                                   const mesh::TetMesh& mesh) {
+  if (arguments.weights.empty()) return {};
+  if (method && *method != Method::power) throw base::UsageError("--weights are for --sort power");
+  mesh::ScalarField field = mesh::select_scalar(mesh, arguments.weights);
+  if (field.location != mesh::Location::point) {
+    throw base::UsageError("--weights needs a point field; '" + field.name + "' is one of cells");
+  }
+  for (const double weight : field.values) {
+    if (!std::isfinite(weight)) {
+      throw base::InputError("the weights '" + field.name + "' are not all finite");
+    }
+  }
+  return std::move(field.values);
+}
+
 void order(const OrderArguments& arguments) {
   const std::optional<Method> method = parse_method(arguments.sort);
   const auto rays = static_cast<std::size_t>(parse_count(arguments.rays, "--rays", 0));
   if (method == Method::none) {
-    throw base::UsageError("--sort none is no order; there are: centroid, mpvo, fragments");
+    throw base::UsageError("--sort none is no order; there are: centroid, power, mpvo, fragments");
   }
   const mesh::Import imported = import_and_tell(arguments.input, arguments.import);
   const mesh::TetMesh& mesh = imported.mesh;
@@ -223,13 +256,14 @@ void order(const OrderArguments& arguments) {
                     drawable.degenerate, drawable.nan));
   }
   const std::vector<sort::View> views = chosen_views(arguments, mesh);
+  const std::vector<double> weights = chosen_weights(arguments, method, mesh);
   OrderReport report;
   report.cells = drawable.cells.size();
   report.views = views.size();
   if (method == Method::fragments) {
     check_fragments(mesh, drawable.cells, views, rays, report);
   } else {
-    sort_cells(method.value_or(Method::mpvo), mesh, drawable.cells, views, rays, report);
+    sort_cells(method, mesh, drawable.cells, weights, views, rays, report);
   }
   if (arguments.json) {
     fmt::print("{}\n", to_json(report));
@@ -247,13 +281,17 @@ void add_order(CLI::App& program) {
   app->footer("usage: tetraglass order INPUT [camera] [--sort M] [--rays N] [--json]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
-  app->add_option("--sort", arguments->sort, "auto | centroid | mpvo | fragments")
+  app->add_option(
+         "--sort", arguments->sort,
+         "auto (power if the mesh is Delaunay, else mpvo) | centroid | power | mpvo | fragments")
       ->capture_default_str();
   app->add_option("--rays", arguments->rays,
                   "Check every cell that N random rays meet, by brute force")
       ->capture_default_str();
   app->add_option("--views", arguments->views,
                   "Instead of a camera N random views: parallel, from outside, from inside");
+  app->add_option("--weights", arguments->weights,
+                  "Point field with the weights of a regular triangulation, for --sort power");
   app->add_option("--time", arguments->import.time,
                   "Time step: a time, 'last' (default) or 'index:N'");
   app->add_flag("--json", arguments->json, "Print JSON");

@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "sort/centroid.h"
 #include "sort/mpvo.h"
+#include "sort/power.h"
 
 namespace tetraglass::sort {
 namespace {
@@ -17,12 +18,15 @@ struct ByCentroid {
   Order sort(const View& view) { return sorter.sort(mesh, cells, view); }
 };
 
-using AnySorter = std::variant<ByCentroid, MpvoSorter>;
+using AnySorter = std::variant<ByCentroid, PowerSorter, MpvoSorter>;
 
-AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells) {
+AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
+               std::span<const double> weights) {
   switch (method) {
     case Method::centroid:
       return ByCentroid{mesh, {cells.begin(), cells.end()}, {}};
+    case Method::power:
+      return PowerSorter(mesh, cells, weights);
     case Method::mpvo:
       return MpvoSorter(mesh, cells);
     case Method::none:
@@ -30,7 +34,7 @@ AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::ui
       break;
   }
   throw base::UsageError("'" + to_string(method) +
-                         "' does not order cells; there are: centroid, mpvo");
+                         "' does not order cells; there are: centroid, power, mpvo");
 }
 
 }  // namespace
@@ -40,8 +44,8 @@ struct CellSorter::Sorter {
 };
 
 CellSorter::CellSorter(Method method, const mesh::TetMesh& mesh,
-                       std::span<const std::uint32_t> cells)
-    : sorter_(new Sorter{make(method, mesh, cells)}) {}
+                       std::span<const std::uint32_t> cells, std::span<const double> weights)
+    : sorter_(new Sorter{make(method, mesh, cells, weights)}) {}
 CellSorter::CellSorter(CellSorter&&) noexcept = default;
 CellSorter& CellSorter::operator=(CellSorter&&) noexcept = default;
 CellSorter::~CellSorter() = default;
@@ -56,6 +60,8 @@ std::string to_string(Method method) {
       return "none";
     case Method::centroid:
       return "centroid";
+    case Method::power:
+      return "power";
     case Method::mpvo:
       return "mpvo";
     case Method::fragments:
