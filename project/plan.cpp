@@ -65,10 +65,14 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
     plan_order_of_cpu(scene, request, plan);
     return;
   }
-  if (request.sort == SortMethod::fragments) {
-    throw base::UsageError("--sort fragments needs --projector cpu or reference");
-  }
   const bool commutative = is_commutative(scene);
+  if (request.sort == SortMethod::fragments) {
+    plan.sort = commutative ? SortMethod::none : SortMethod::fragments;
+    plan.reasons.push_back(commutative
+                               ? fmt::format("order: none, mode {} does not depend on it", mode)
+                               : "order: fragments, sorted pixel by pixel: exact for every mesh");
+    return;
+  }
   if (!commutative && request.sort == SortMethod::none) {
     throw base::UsageError(
         "mode " + mode +

@@ -13,7 +13,10 @@ uniform float focus_inverse;  // 0 in parallel views
 uniform vec2 depth_range;     // nearest z - focus, and the inverse of the range
 #endif
 
-#ifdef SCALAR_TARGET
+#if defined(COUNT_FRAGMENTS) || defined(GATHER_FRAGMENTS)
+#include "fragment_lists.glsl"
+vec4 result;
+#elif defined(SCALAR_TARGET)
 layout(location = 0) out float result;
 #else
 layout(location = 0) out vec4 result;
@@ -153,6 +156,9 @@ void main() {
 #ifdef CLIP_PLANES
   if (!clip(position, seg)) discard;
 #endif
+#ifdef COUNT_FRAGMENTS
+  imageAtomicAdd(counts, ivec2(gl_FragCoord.xy), 1u);
+#else
 #if defined(MODE_THICKNESS)
   result = seg.size;
 #elif defined(MODE_MIP_FIELD)
@@ -182,6 +188,13 @@ void main() {
   result = looked_up(seg);
 #else
   result = radiance(seg.front, seg.back, seg.size);
+#endif
+#endif
+#ifdef GATHER_FRAGMENTS
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uint place = imageLoad(firsts, pixel).x + imageAtomicAdd(counts, pixel, 1u);
+  depths[place] = seg.entry + seg.exit;
+  lights[place] = result;
 #endif
 #endif
 }

@@ -82,18 +82,16 @@ std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
 }  // namespace
 
 CellProjector::CellProjector(const Context& context, const Scene& scene, const Plan& plan,
-                             Stats& stats, int largest_tile)
+                             Stats& stats, int largest_tile, std::size_t most_fragments)
     : context_(context),
       scene_(scene),
       plan_(plan),
       largest_tile_(std::min(largest_tile, context.limits().tile)),
+      most_fragments_(most_fragments),
       normalization_(scene),
       drawn_(drawn_cells(scene, normalization_)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       counter_(context) {
-  if (plan.sort == SortMethod::fragments) {
-    throw base::UnavailableError("the gl projector sorts cells, not fragments");
-  }
   make_tables(stats);
   if (reads_medium(scene, plan)) {
     medium_.emplace(context, scene.transfer_function, normalization_);
@@ -129,25 +127,29 @@ void CellProjector::make_tables(Stats& stats) {
   stats.tables_ms += clock.milliseconds();
 }
 
-const Program& CellProjector::program(bool parallel) {
-  std::optional<Program>& program = parallel ? parallel_program_ : perspective_program_;
-  if (program) return *program;
+const Program& CellProjector::program(bool parallel, const std::string& pass) {
+  const std::string purpose = (parallel ? "parallel " : "perspective ") + pass;
+  if (const auto found = programs_.find(purpose); found != programs_.end()) return found->second;
   std::vector<std::string> names = shader_switches(scene_, plan_, parallel);
   for (std::string& name : cells_->switches()) names.push_back(std::move(name));
-  program.emplace(context_, shader_source(cells_->vertex_shader(), names),
-                  shader_source("cell.frag.glsl", names));
-  cells_->set_uniforms(*program);
-  program->set("medium_pieces", Units::kMediumPieces);
-  program->set("medium_index", Units::kMediumIndex);
-  program->set("table", Units::kTable);
-  program->set("table_length", table_length_);
-  program->set("surfaces", Units::kSurfaces);
-  program->set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
-  return *program;
+  if (!pass.empty()) names.push_back(pass);
+  const Program& program =
+      programs_
+          .try_emplace(purpose, context_, shader_source(cells_->vertex_shader(), names),
+                       shader_source("cell.frag.glsl", names))
+          .first->second;
+  cells_->set_uniforms(program);
+  program.set("medium_pieces", Units::kMediumPieces);
+  program.set("medium_index", Units::kMediumIndex);
+  program.set("table", Units::kTable);
+  program.set("table_length", table_length_);
+  program.set("surfaces", Units::kSurfaces);
+  program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
+  return program;
 }
 
 void CellProjector::order_cells(const Frame& frame, Stats& stats) {
-  if (plan_.sort == SortMethod::none) return;
+  if (!sorts_cells(plan_)) return;
   const base::Stopwatch clock;
   const sort::Order order = sorter_.sort(*scene_.mesh, drawn_, frame.view());
   cells_->set_order(order.cells);
@@ -184,12 +186,45 @@ void CellProjector::set_blending() const {
   gl.FrontFace(cells_->draws_front_faces() ? GL_CW : GL_CCW);
 }
 
-void CellProjector::draw_tile(const Program& program, const ViewUniforms& view, const Tile& tile,
-                              const Target& target, Image& image) const {
-  view.set(program, tile, context_.limits().subpixel_bits);
-  target.begin(empty_pixel(scene_), tile.width, tile.height);
-  program.use();
+void CellProjector::draw_fragments(bool parallel, const ViewUniforms& view, const Tile& tile,
+                                   Stats& stats) {
+  const Program& counting = program(parallel, FragmentLists::kCountSwitch);
+  const Program& gathering = program(parallel, FragmentLists::kGatherSwitch);
+  for (const Program* each : {&counting, &gathering}) {
+    view.set(*each, tile, context_.limits().subpixel_bits);
+  }
+  lists_->begin_counting();
+  counting.use();
   cells_->draw();
+  const std::vector<std::uint32_t> counts = lists_->counts(tile.width, tile.height);
+  for (const Patch& patch : patches(counts, tile.width, lists_->most())) {
+    set_blending();
+    lists_->begin_patch(patch, counts, tile.width);
+    gathering.use();
+    cells_->draw();
+    lists_->resolve(patch);
+    stats.fragments += patch.fragments;
+  }
+  context_.gl().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  stats.sort_method = to_string(plan_.sort);
+  stats.sort_exact = true;
+}
+
+void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile,
+                              const Target& target, Image& image, Stats& stats) {
+  target.begin(empty_pixel(scene_), tile.width, tile.height);
+  set_blending();
+  if (plan_.sort == SortMethod::fragments) {
+    draw_fragments(parallel, view, tile, stats);
+  } else {
+    const Program& shaders = program(parallel);
+    view.set(shaders, tile, context_.limits().subpixel_bits);
+    counter_.begin();
+    shaders.use();
+    cells_->draw();
+    counter_.end();
+    stats.fragments += counter_.count();
+  }
   read_tile(target, scene_, normalization_, tile, image);
 }
 
@@ -200,23 +235,21 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   Image image(frame.width(), frame.height());
   const ViewUniforms view(frame, normalization_, scene_.clip);
   if (!drawn_.empty() && view.sees_mesh()) {
-    const Program& shaders = program(frame.parallel());
     const int width = std::min(frame.width(), largest_tile_);
     const int height = std::min(frame.height(), largest_tile_);
     const Target target(context_, target_texel(scene_, plan_.gl.target),
                         draws_opaque_surfaces(scene_), width, height);
     bind();
-    set_blending();
-    counter_.begin();
+    if (plan_.sort == SortMethod::fragments && !(lists_ && lists_->hold(width, height))) {
+      lists_.emplace(context_, width, height, most_fragments_);
+    }
     for (int y = 0; y < frame.height(); y += height) {
       for (int x = 0; x < frame.width(); x += width) {
         const Tile tile{x, y, std::min(width, frame.width() - x),
                         std::min(height, frame.height() - y)};
-        draw_tile(shaders, view, tile, target, image);
+        draw_tile(frame.parallel(), view, tile, target, image, stats);
       }
     }
-    counter_.end();
-    stats.fragments += counter_.count();
     context_.gl().Finish();
     context_.check("drawing cells");
   }

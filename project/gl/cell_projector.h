@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "project/camera.h"
 #include "project/gl/cell_layout.h"
 #include "project/gl/drawn_cells.h"
+#include "project/gl/fragment_lists.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/mesh_buffers.h"
 #include "project/gl/view_uniforms.h"
@@ -25,10 +27,10 @@ class CellProjector {
   static constexpr int kLargestTile = 4096;
 
   /// The scene has a drawable cell. Adds the time for tables to `stats`. Throws UnavailableError
-  /// where the mesh or the tables do not fit or the plan asks for an order that this projector
-  /// lacks.
+  /// where the mesh or the tables do not fit. `most_fragments` are gathered at once for the order
+  /// `fragments`.
   CellProjector(const Context& context, const Scene& scene, const Plan& plan, Stats& stats,
-                int largest_tile = kLargestTile);
+                int largest_tile = kLargestTile, std::size_t most_fragments = FragmentLists::kMost);
 
   /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
   /// and size do not matter.
@@ -38,18 +40,21 @@ class CellProjector {
   [[nodiscard]] std::size_t bytes() const { return cells_->bytes(); }
 
  private:
-  [[nodiscard]] const Program& program(bool parallel);
+  /// `pass`: a `#define` of FragmentLists, or empty.
+  [[nodiscard]] const Program& program(bool parallel, const std::string& pass = "");
   void make_tables(Stats& stats);
   void order_cells(const Frame& frame, Stats& stats);
   void bind() const;
   void set_blending() const;
-  void draw_tile(const Program& program, const ViewUniforms& view, const Tile& tile,
-                 const Target& target, Image& image) const;
+  void draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile, const Target& target,
+                 Image& image, Stats& stats);
+  void draw_fragments(bool parallel, const ViewUniforms& view, const Tile& tile, Stats& stats);
 
   const Context& context_;
   const Scene& scene_;
   Plan plan_;
   int largest_tile_;
+  std::size_t most_fragments_;
   Normalization normalization_;
   std::vector<std::uint32_t> drawn_;
   std::unique_ptr<CellLayout> cells_;
@@ -58,8 +63,8 @@ class CellProjector {
   std::optional<Table> table_;
   float table_length_ = 1;  // in normalized units
   FragmentCounter counter_;
-  std::optional<Program> parallel_program_;
-  std::optional<Program> perspective_program_;
+  std::map<std::string, Program> programs_;  // by the purpose that they were made for
+  std::optional<FragmentLists> lists_;
   sort::CentroidSorter sorter_;
 };
 

@@ -205,7 +205,8 @@ Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Pla
                            const Normalization& normalization,
                            const std::vector<std::uint32_t>& drawn)
     : plan_(plan.gl),
-      needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty()),
+      needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty() ||
+                   plan.sort == SortMethod::fragments),
       count_(drawn.size()),
       arrays_(context) {
   constexpr std::size_t kMost = std::numeric_limits<int>::max() / kVertices;
@@ -221,7 +222,7 @@ Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Pla
     upload<std::int16_t>(scene, normalization, drawn);
   }
   if (plan_.minimum != Minimum::shader) minima_.emplace(minimum_texture(context, plan_.minimum));
-  if (plan.sort == SortMethod::none) return;
+  if (!sorts_cells(plan)) return;
   place_.resize(scene.mesh->cells.size());
   for (std::size_t k = 0; k < count_; ++k) place_[drawn[k]] = static_cast<std::uint32_t>(k);
 }

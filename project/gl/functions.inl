@@ -8,13 +8,17 @@
 #define TETRAGLASS_GL_FUNCTIONS(X) \
   X(AttachShader)               \
   X(BeginQuery)                 \
+  X(BindBufferBase)             \
   X(BindFramebuffer)            \
+  X(BindImageTexture)           \
   X(BindTextureUnit)            \
   X(BindVertexArray)            \
   X(BlendEquation)              \
   X(BlendFunc)                  \
   X(CheckNamedFramebufferStatus)\
   X(ClearNamedFramebufferfv)    \
+  X(ClearTexImage)              \
+  X(ColorMask)                  \
   X(CompileShader)              \
   X(CreateBuffers)              \
   X(CreateFramebuffers)         \
@@ -49,8 +53,10 @@
   X(GetShaderInfoLog)           \
   X(GetShaderiv)                \
   X(GetString)                  \
+  X(GetTextureSubImage)         \
   X(GetUniformLocation)         \
   X(LinkProgram)                \
+  X(MemoryBarrier)              \
   X(MultiDrawArrays)            \
   X(NamedBufferData)            \
   X(NamedFramebufferTexture)    \
@@ -66,6 +72,7 @@
   X(ProgramUniformMatrix3dv)    \
   X(ProgramUniformMatrix4fv)    \
   X(ReadPixels)                 \
+  X(Scissor)                    \
   X(ShaderSource)               \
   X(TextureBuffer)              \
   X(TextureParameteri)          \

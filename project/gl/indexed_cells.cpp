@@ -1,5 +1,7 @@
 #include "project/gl/indexed_cells.h"
 
+#include "project/gl/switches.h"
+
 namespace tetraglass::project::gl {
 
 IndexedCells::IndexedCells(const Context& context, const Scene& scene, const Plan& plan,
@@ -11,9 +13,9 @@ IndexedCells::IndexedCells(const Context& context, const Scene& scene, const Pla
             scene.mode == Mode::iso && scene.shading == Shading::smooth),
       faces_(context, strip_) {
   // Without an order the cells to draw are still told by their numbers, unless all are.
-  if (plan.sort != SortMethod::none || drawn.size() != scene.mesh->cells.size()) {
+  if (sorts_cells(plan) || drawn.size() != scene.mesh->cells.size()) {
     order_.emplace(context, Texel::r32ui);
-    if (plan.sort == SortMethod::none) order_->upload(drawn, "cells");
+    if (!sorts_cells(plan)) order_->upload(drawn, "cells");
   }
 }
 

@@ -27,12 +27,6 @@ Name make_texture(const Context& context, GLenum target) {
   return {context, name, &delete_names<&Functions::DeleteTextures>};
 }
 
-Name make_image(const Context& context, GLenum format, int width, int height) {
-  Name texture = make_texture(context, GL_TEXTURE_2D);
-  context.gl().TextureStorage2D(texture.get(), 1, format, width, height);
-  return texture;
-}
-
 Name make_framebuffer(const Context& context) {
   GLuint name = 0;
   context.gl().CreateFramebuffers(1, &name);
@@ -82,6 +76,12 @@ bool has_one_component(Texel texel) {
 
 }  // namespace
 
+Name make_image(const Context& context, GLenum format, int width, int height) {
+  Name texture = make_texture(context, GL_TEXTURE_2D);
+  context.gl().TextureStorage2D(texture.get(), 1, format, width, height);
+  return texture;
+}
+
 std::size_t texel_bytes(Texel texel) {
   switch (texel) {
     case Texel::r8:
@@ -109,6 +109,13 @@ void Buffer::upload(std::span<const std::byte> bytes) {
   name_.context().gl().NamedBufferData(name_.get(), static_cast<GLsizeiptr>(bytes.size()),
                                        bytes.data(), GL_STATIC_DRAW);
   name_.context().check("filling a buffer");
+}
+
+void Buffer::reserve(std::size_t bytes) {
+  bytes_ = bytes;
+  name_.context().gl().NamedBufferData(name_.get(), static_cast<GLsizeiptr>(bytes), nullptr,
+                                       GL_DYNAMIC_COPY);
+  name_.context().check("making a buffer");
 }
 
 TextureBuffer::TextureBuffer(const Context& context, Texel texel)

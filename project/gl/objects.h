@@ -49,6 +49,9 @@ class Name {
   Delete delete_;
 };
 
+/// A two-dimensional texture of one level, without content. `format`: OpenGL's sized format.
+[[nodiscard]] Name make_image(const Context& context, unsigned format, int width, int height);
+
 /// How a texel is stored: components and type.
 enum class Texel { r8, r16, r16f, r32f, rgba8, rgba16f, rgba32f, r32ui, rgba32ui };
 
@@ -62,6 +65,9 @@ class Buffer {
 
   /// Replaces the content. Throws UnavailableError where there is no memory for it.
   void upload(std::span<const std::byte> bytes);
+
+  /// Replaces the content by one that is not set. Throws as `upload`.
+  void reserve(std::size_t bytes);
 
   [[nodiscard]] unsigned get() const { return name_.get(); }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
