@@ -256,7 +256,7 @@ void Splitter::star_polyhedron(std::size_t cell) {
     points.insert(points.end(), faces.back().begin(), faces.back().end());
   }
   std::ranges::sort(points);
-  points.erase(std::ranges::unique(points).begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) return;  // no volume, and nothing to star from
   const std::uint32_t center = add_mean_point(points);
   for (const auto& face : faces) {

@@ -191,6 +191,26 @@ TEST(Decompose, NeighboursOfAllTypesShareTheirDiagonals) {
   }
 }
 
+TEST(Decompose, FacesThatAreNotFlatLoseNoVolume) {
+  // Points inside the block are moved: the faces there become skew, but neighbours cut them alike,
+  // so the parts still fill the block.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  for (int trial = 0; trial < 50; ++trial) {
+    MeshData data = mixed_block(random);
+    for (Vector3d& p : data.points) {
+      if ((p.array() > 0).all() && (p.array() < 3).all()) {
+        p += Vector3d(shift(random), shift(random), shift(random));
+      }
+    }
+    const Decomposition split = decompose(data);
+    ASSERT_EQ(split.inverted, 0U);
+    ASSERT_NEAR(total_volume(split.mesh) / 27, 1, 1e-12);
+    ASSERT_EQ(face_adjacency(split.mesh).crowded_faces, 0U);
+    ASSERT_EQ(face_adjacency(split.mesh).boundary_faces, 6U * 9 * 2);
+  }
+}
+
 TEST(Decompose, CollapsedHexahedronIsNoCrack) {
   // Two bricks side by side; the second one has its far edge drawn together to a line, as points
   // that are the same, next to which lies a wedge that shares that line.
