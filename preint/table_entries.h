@@ -78,7 +78,10 @@ void for_each_run(const TransferFunction& tf, double low, double high, int n,
   const Crossing<Span> downwards(tf, low, high, n, false, tolerance, method);
   const std::size_t lanes = run_lanes();
   const std::size_t runs = (static_cast<std::size_t>(n - 1) + lanes - 1) / lanes;
-  base::parallel_ranges(lengths.size() * runs, 1, [&](std::size_t begin, std::size_t end) {
+  const std::size_t tasks = lengths.size() * runs;
+  // Few and large pieces: each allocates its working memory anew.
+  const std::size_t grain = tasks / (4 * static_cast<std::size_t>(base::thread_count()));
+  base::parallel_ranges(tasks, grain, [&](std::size_t begin, std::size_t end) {
     RunMemory memory;
     for (std::size_t task = begin; task < end; ++task) {
       const std::size_t l = task / runs;
@@ -102,7 +105,7 @@ void evaluate_cells(const Crossing<Span>& crossing, const Run& run, const double
                     RunMemory& memory) {
   const std::size_t block = kSpanSize<Span> * run.lanes;
   memory.cells.resize(crossing.series().size() * block);
-  memory.tails.resize(std::max(memory.tails.size(), (run.narrowest + run.lanes) * block));
+  memory.tails.resize((crossing.series().size() + 2 * run.lanes) * block);
   crossing.series().evaluate(lengths, memory.cells.data());
 }
 

@@ -172,7 +172,9 @@ TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
       {"material --size 17x9", 4},
       {"psi --size 33", 2}};
   for (const auto& [kind, rank] : tables) {
+    const bool plain = std::count(kind.begin(), kind.end(), ' ') == 2;  // other options: once
     for (const std::string method : {"incremental", "brute-force", "exact"}) {
+      if (!plain && method != "incremental") continue;
       SCOPED_TRACE(kind + ' ' + method);
       const std::string arguments =
           "table --kind " + kind + " --method " + method + " -o " + out + " --json";
