@@ -120,24 +120,11 @@ void sort_and_check(sort::CellSorter& sorter, const mesh::TetMesh& mesh,
   if (rays > 0) add(report.rays, sort::check_rays(mesh, order.cells, view, rays, seed));
 }
 
-// Without a method: power if the mesh allows it, else mpvo.
-sort::CellSorter make_sorter(std::optional<Method> method, const mesh::TetMesh& mesh,
-                             const std::vector<std::uint32_t>& cells,
-                             const std::vector<double>& weights) {
-  if (method) return {*method, mesh, cells, weights};
-  try {
-    return {Method::power, mesh, cells, weights};
-  } catch (const base::InputError& reason) {
-    fmt::print(stderr, "mpvo: {}\n", reason.what());
-    return {Method::mpvo, mesh, cells};
-  }
-}
-
-void sort_cells(std::optional<Method> method, const mesh::TetMesh& mesh,
-                const std::vector<std::uint32_t>& cells, const std::vector<double>& weights,
-                const std::vector<sort::View>& views, std::size_t rays, OrderReport& report) {
+void sort_cells(Method method, const mesh::TetMesh& mesh, const std::vector<std::uint32_t>& cells,
+                const std::vector<double>& weights, const std::vector<sort::View>& views,
+                std::size_t rays, OrderReport& report) {
   const base::Stopwatch clock;
-  sort::CellSorter sorter = make_sorter(method, mesh, cells, weights);
+  sort::CellSorter sorter(method, mesh, cells, weights);
   report.prepare_ms = clock.milliseconds();
   const sort::CellLinks links = sort::link_cells(mesh, cells);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -224,7 +211,7 @@ std::vector<sort::View> chosen_views(const OrderArguments& arguments, const mesh
 std::vector<double> chosen_weights(const OrderArguments& arguments, std::optional<Method> method,
                                    const mesh::TetMesh& mesh) {
   if (arguments.weights.empty()) return {};
-  if (method && *method != Method::power) throw base::UsageError("--weights are for --sort power");
+  if (method != Method::power) throw base::UsageError("--weights are for --sort power");
   mesh::ScalarField field = mesh::select_scalar(mesh, arguments.weights);
   if (field.location != mesh::Location::point) {
     throw base::UsageError("--weights needs a point field; '" + field.name + "' is one of cells");
@@ -263,7 +250,7 @@ void order(const OrderArguments& arguments) {
   if (method == Method::fragments) {
     check_fragments(mesh, drawable.cells, views, rays, report);
   } else {
-    sort_cells(method, mesh, drawable.cells, weights, views, rays, report);
+    sort_cells(method.value_or(Method::mpvo), mesh, drawable.cells, weights, views, rays, report);
   }
   if (arguments.json) {
     fmt::print("{}\n", to_json(report));
@@ -281,9 +268,8 @@ void add_order(CLI::App& program) {
   app->footer("usage: tetraglass order INPUT [camera] [--sort M] [--rays N] [--json]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
-  app->add_option(
-         "--sort", arguments->sort,
-         "auto (power if the mesh is Delaunay, else mpvo) | centroid | power | mpvo | fragments")
+  app->add_option("--sort", arguments->sort,
+                  "auto (mpvo) | centroid | power (Delaunay meshes) | mpvo | fragments")
       ->capture_default_str();
   app->add_option("--rays", arguments->rays,
                   "Check every cell that N random rays meet, by brute force")
