@@ -157,6 +157,16 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
                              : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
 }
 
+/// Whether something is asked for that only the gl projector has.
+bool needs_gl(const Scene& scene, const Request& request) {
+  const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
+  const bool sorts_cells =
+      request.sort == SortMethod::centroid || (request.sort == SortMethod::none && blends);
+  const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
+  return request.context.has_value() || is_any_set(request.gl) || !scene.clip.empty() ||
+         sorts_cells || approximates || request.table_n != 0;
+}
+
 void plan_projector(Plan& plan) {
   switch (plan.projector) {
     case Projector::gl:
@@ -176,7 +186,8 @@ void plan_projector(Plan& plan) {
 
 Plan plan(const Scene& scene, const Request& request) {
   Plan plan;
-  plan.projector = request.projector.value_or(Projector::gl);
+  plan.projector =
+      request.projector.value_or(needs_gl(scene, request) ? Projector::gl : Projector::cpu);
   plan_projector(plan);
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);

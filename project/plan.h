@@ -46,9 +46,10 @@ struct Plan {
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };
 
-/// Chooses the way to draw the scene. Pure: depends on nothing but its arguments.
-/// Throws UsageError where the request contradicts the scene (unsorted `full`, a projector that
-/// lacks what is asked for).
+/// Chooses the way to draw the scene: by the cpu projector, which needs no GPU and is exact, where
+/// it has what is asked for; else by gl. Pure: depends on nothing but its arguments. Throws
+/// UsageError where the request contradicts the scene (unsorted `full`, a projector that lacks what
+/// is asked for).
 [[nodiscard]] Plan plan(const Scene& scene, const Request& request);
 
 [[nodiscard]] std::string to_string(Projector projector);

@@ -85,14 +85,12 @@ TEST_F(CommandLine, RendersEveryModeToEveryFormat) {
     }
     EXPECT_EQ(stats["cells_skipped"]["degenerate"], 0);
     EXPECT_EQ(stats["cells_skipped"]["nan"], 0);
-    EXPECT_EQ(stats["sort"]["method"], mode == "full" ? "centroid" : "none");
-    EXPECT_EQ(stats["sort"]["exact"], mode != "full");
-    EXPECT_EQ(stats["projector"], "gl");
+    EXPECT_EQ(stats["sort"]["method"], mode == "full" || mode == "iso" ? "fragments" : "none");
+    EXPECT_EQ(stats["sort"]["exact"], true);
+    EXPECT_EQ(stats["projector"], "cpu");
     EXPECT_TRUE(stats["plan"].is_array());
     EXPECT_EQ(stats["verified"]["pixels"], 50);
-    // Cells sorted by their centroids are not in exact order; every other mode is exact but for
-    // rounding to float.
-    EXPECT_LT(stats["verified"]["max_error"].get<double>(), mode == "full" ? 0.05 : 1e-3) << mode;
+    EXPECT_LT(stats["verified"]["max_error"].get<double>(), 1e-4) << mode;
   }
 }
 

@@ -38,7 +38,9 @@ TEST(GlContext, EglDrawsTheSamePicture) {
   for (const Mode mode :
        {Mode::thickness, Mode::full, Mode::emission, Mode::absorption, Mode::mip, Mode::iso}) {
     const Scene scene = wave_scene(mesh, mode);
-    const Plan how = plan(scene, {});
+    Request request;
+    request.projector = Projector::gl;
+    const Plan how = plan(scene, request);
     const Frame frame(scene.camera, scene.width, scene.height);
     Stats stats;
     gl::CellProjector first(*osmesa, scene, how, stats);

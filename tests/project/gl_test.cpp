@@ -37,9 +37,14 @@ double zero(const Eigen::Vector3d&) {
   return 0;
 }
 
+Plan gl_plan(const Scene& scene, Request request = {}) {
+  request.projector = Projector::gl;
+  return plan(scene, request);
+}
+
 Image draw(const Scene& scene, const Request& request = {}, Stats* stats = nullptr) {
   Stats own;
-  return render_gl(scene, plan(scene, request), stats != nullptr ? *stats : own);
+  return render_gl(scene, gl_plan(scene, request), stats != nullptr ? *stats : own);
 }
 
 Image draw_table(const Scene& scene, Integrator integrator, int n, int m = 0) {
@@ -557,7 +562,7 @@ TEST(Gl, TilesFitTogether) {
       Scene scene = make_scene(mesh, mode, tf, 100);
       scene.camera = view.camera;
       scene.height = 70;
-      const Plan how = plan(scene, {});
+      const Plan how = gl_plan(scene);
       const auto context = gl::Context::create(ContextKind::osmesa);
       const Frame frame(scene.camera, scene.width, scene.height);
       Stats whole_stats;
@@ -576,7 +581,7 @@ TEST(Gl, ProjectorDrawsManyViews) {
   const mesh::TetMesh mesh = box_mesh([](const auto& p) { return p.norm(); }, 4);
   const preint::TransferFunction tf({{0, {1, 0, 0}, 0.1}, {2, {0, 0, 1}, 2}});
   const Scene scene = make_scene(mesh, Mode::full, tf, 64);
-  const Plan how = plan(scene, {});
+  const Plan how = gl_plan(scene);
   const auto context = gl::Context::create(ContextKind::osmesa);
   Stats stats;
   gl::CellProjector projector(*context, scene, how, stats);
@@ -591,7 +596,7 @@ TEST(Gl, ProjectorDrawsManyViews) {
 TEST(Gl, TwoContextsAtOnce) {
   const mesh::TetMesh mesh = box_mesh(zero);
   const Scene scene = make_scene(mesh, Mode::thickness, constant_medium({1, 1, 1}, 1), 32);
-  const Plan how = plan(scene, {});
+  const Plan how = gl_plan(scene);
   const Frame frame(scene.camera, 32, 32);
   Stats stats;
   const auto first = gl::Context::create(ContextKind::osmesa);

@@ -20,14 +20,49 @@ class PlanTest : public testing::Test {
 };
 
 TEST_F(PlanTest, OnlyModesThatBlendAreSorted) {
-  EXPECT_EQ(plan(scene(Mode::full), {}).sort, SortMethod::centroid);
+  EXPECT_EQ(plan(scene(Mode::full), {}).sort, SortMethod::fragments);
+  Request gl;
+  gl.projector = Projector::gl;
+  EXPECT_EQ(plan(scene(Mode::full), gl).sort, SortMethod::centroid);
   for (const Mode mode :
        {Mode::emission, Mode::absorption, Mode::mip, Mode::thickness, Mode::iso}) {
-    EXPECT_EQ(plan(scene(mode), {}).sort, SortMethod::none) << to_string(mode);
+    EXPECT_EQ(plan(scene(mode), gl).sort, SortMethod::none) << to_string(mode);
+    if (mode != Mode::iso) {
+      EXPECT_EQ(plan(scene(mode), {}).sort, SortMethod::none) << to_string(mode);
+    }
   }
   Scene translucent = scene(Mode::iso);
   translucent.isosurfaces = {{0.5, {1, 1, 1}, 0.5}};
-  EXPECT_EQ(plan(translucent, {}).sort, SortMethod::centroid);
+  EXPECT_EQ(plan(translucent, gl).sort, SortMethod::centroid);
+}
+
+TEST_F(PlanTest, TheCpuDrawsWhatItCan) {
+  for (const Mode mode :
+       {Mode::full, Mode::emission, Mode::absorption, Mode::mip, Mode::thickness, Mode::iso}) {
+    EXPECT_EQ(plan(scene(mode), {}).projector, Projector::cpu) << to_string(mode);
+  }
+  Request request;
+  request.context = ContextKind::osmesa;
+  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
+  request = {};
+  request.sort = SortMethod::centroid;
+  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
+  request = {};
+  request.integrator = Integrator::table3d;
+  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
+}
+
+TEST_F(PlanTest, RaysOfTheCpuEndWhereTheyAreOpaque) {
+  Request request;
+  request.opaque_at = 0.5;
+  EXPECT_EQ(plan(scene(Mode::full), request).opaque_at, 0.5);
+  for (const double wrong : {0.0, -1.0, 1.5}) {
+    request.opaque_at = wrong;
+    EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError) << wrong;
+  }
+  request.opaque_at = 0.5;
+  request.projector = Projector::gl;
+  EXPECT_THROW((void)plan(scene(Mode::full), request), base::UsageError);
 }
 
 TEST_F(PlanTest, RefusesAWrongPicture) {
