@@ -88,10 +88,9 @@ MeshData NetgenReader::read() {
     mesh_.notes.push_back(
         fmt::format("of {} elements of higher order the corners are used", reduced_));
   }
-  const auto [low, high] = std::ranges::minmax_element(domain_.values);
-  if (low != high && std::ranges::any_of(domain_.values, [&](double value) {
-        return value != 0 && value != *high;
-      })) {
+  const double high = domain_.values.empty() ? 0 : *std::ranges::max_element(domain_.values);
+  if (std::ranges::any_of(domain_.values,
+                          [&](double value) { return value != 0 && value != high; })) {
     mesh_.fields.push_back(std::move(domain_));
   }
   return std::move(mesh_);
