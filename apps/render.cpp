@@ -175,7 +175,8 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--context", a.context,
                   "auto | osmesa | egl (a GPU without a display), for --projector gl")
       ->capture_default_str();
-  app->add_option("--sort", a.sort, "auto | none | centroid | fragments (exact, pixel by pixel)")
+  app->add_option("--sort", a.sort,
+                  "auto | none | centroid | power | mpvo (gl) | fragments (pixel by pixel)")
       ->capture_default_str();
   app->add_option(
       "--opaque-at", a.opaque_at,

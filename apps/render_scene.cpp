@@ -208,6 +208,8 @@ project::Request make_request(const RenderArguments& arguments) {
                                                          {{"auto", std::nullopt},
                                                           {"none", SortMethod::none},
                                                           {"centroid", SortMethod::centroid},
+                                                          {"power", SortMethod::power},
+                                                          {"mpvo", SortMethod::mpvo},
                                                           {"fragments", SortMethod::fragments}});
   request.integrator = parse_choice<std::optional<Integrator>>(arguments.integrator, "--integrator",
                                                                {{"auto", std::nullopt},

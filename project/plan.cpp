@@ -77,14 +77,18 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
     throw base::UsageError(
         "mode " + mode +
         " depends on the order of the cells: --sort none would draw a wrong "
-        "picture; use --sort centroid, or a mode that needs no order (emission, mip, ...)");
+        "picture; use --sort mpvo, or a mode that needs no order (emission, mip, ...)");
   }
-  plan.sort = request.sort.value_or(commutative ? SortMethod::none : SortMethod::centroid);
-  plan.reasons.push_back(plan.sort == SortMethod::none
-                             ? fmt::format("order: none, mode {} does not depend on it", mode)
-                             : fmt::format("order: centroid, approximate; mode {} {}", mode,
-                                           commutative ? "does not need it, it was asked for"
-                                                       : "blends cells back to front"));
+  plan.sort = request.sort.value_or(commutative ? SortMethod::none : SortMethod::mpvo);
+  if (plan.sort == SortMethod::none) {
+    plan.reasons.push_back(fmt::format("order: none, mode {} does not depend on it", mode));
+    return;
+  }
+  plan.reasons.push_back(fmt::format(
+      "order: {}, {}; mode {} {}", to_string(plan.sort),
+      plan.sort == SortMethod::centroid ? "approximate"
+                                        : "exact unless cells hide each other in a ring",
+      mode, commutative ? "does not need it, it was asked for" : "blends cells back to front"));
 }
 
 void plan_linear(const Scene& scene, const Request& request, Plan& plan) {
@@ -231,18 +235,6 @@ std::string to_string(Projector projector) {
       return "gl";
     case Projector::cpu:
       return "cpu";
-  }
-  return "";
-}
-
-std::string to_string(SortMethod sort) {
-  switch (sort) {
-    case SortMethod::none:
-      return "none";
-    case SortMethod::centroid:
-      return "centroid";
-    case SortMethod::fragments:
-      return "fragments";
   }
   return "";
 }

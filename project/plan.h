@@ -6,11 +6,12 @@
 
 #include "project/gl_plan.h"
 #include "project/scene.h"
+#include "sort/cell_sorter.h"
 
 namespace tetraglass::project {
 
 enum class Projector { reference, gl, cpu };
-enum class SortMethod { none, centroid, fragments };
+using SortMethod = sort::Method;
 enum class Integrator {
   exact,
   table2d,
@@ -53,7 +54,7 @@ struct Plan {
 [[nodiscard]] Plan plan(const Scene& scene, const Request& request);
 
 [[nodiscard]] std::string to_string(Projector projector);
-[[nodiscard]] std::string to_string(SortMethod sort);
+using sort::to_string;
 [[nodiscard]] std::string to_string(Integrator integrator);
 [[nodiscard]] std::string to_string(ContextKind context);
 

@@ -151,7 +151,14 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
 void CellProjector::order_cells(const Frame& frame, Stats& stats) {
   if (!sorts_cells(plan_)) return;
   const base::Stopwatch clock;
-  const sort::Order order = sorter_.sort(*scene_.mesh, drawn_, frame.view());
+  if (!sorter_) sorter_.emplace(plan_.sort, *scene_.mesh, scene_.drawable.cells);
+  sort::Order order = sorter_->sort(frame.view());
+  if (drawn_.size() < order.cells.size()) {
+    // Sorted with the rest: what is not drawn still tells which of two others lies behind.
+    std::vector<char> shows(scene_.mesh->cells.size(), 0);
+    for (const std::uint32_t cell : drawn_) shows[cell] = 1;
+    std::erase_if(order.cells, [&](std::uint32_t cell) { return shows[cell] == 0; });
+  }
   cells_->set_order(order.cells);
   stats.sort_method = order.method;
   stats.sort_exact = order.exact;

@@ -15,7 +15,7 @@
 #include "project/image.h"
 #include "project/plan.h"
 #include "project/stats.h"
-#include "sort/centroid.h"
+#include "sort/cell_sorter.h"
 
 namespace tetraglass::project::gl {
 
@@ -65,7 +65,7 @@ class CellProjector {
   FragmentCounter counter_;
   std::map<std::string, Program> programs_;  // by the purpose that they were made for
   std::optional<FragmentLists> lists_;
-  sort::CentroidSorter sorter_;
+  std::optional<sort::CellSorter> sorter_;
 };
 
 }  // namespace tetraglass::project::gl

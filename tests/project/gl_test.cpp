@@ -465,7 +465,8 @@ TEST(Gl, SlabsAreComposedInOrderFromBothSides) {
   scene.camera = down_z(0.5, {0.5, 0.5});
   Stats stats;
   const Image from_above = draw(scene, {}, &stats);
-  EXPECT_EQ(stats.sort_method, "centroid");
+  EXPECT_EQ(stats.sort_method, "mpvo");
+  EXPECT_TRUE(stats.sort_exact);
   scene.camera.eye.z() = -5;
   const Image from_below = draw(scene);
   const double a = 1 - std::exp(-low);

@@ -23,7 +23,7 @@ TEST_F(PlanTest, OnlyModesThatBlendAreSorted) {
   EXPECT_EQ(plan(scene(Mode::full), {}).sort, SortMethod::fragments);
   Request gl;
   gl.projector = Projector::gl;
-  EXPECT_EQ(plan(scene(Mode::full), gl).sort, SortMethod::centroid);
+  EXPECT_EQ(plan(scene(Mode::full), gl).sort, SortMethod::mpvo);
   for (const Mode mode :
        {Mode::emission, Mode::absorption, Mode::mip, Mode::thickness, Mode::iso}) {
     EXPECT_EQ(plan(scene(mode), gl).sort, SortMethod::none) << to_string(mode);
@@ -33,7 +33,7 @@ TEST_F(PlanTest, OnlyModesThatBlendAreSorted) {
   }
   Scene translucent = scene(Mode::iso);
   translucent.isosurfaces = {{0.5, {1, 1, 1}, 0.5}};
-  EXPECT_EQ(plan(translucent, gl).sort, SortMethod::centroid);
+  EXPECT_EQ(plan(translucent, gl).sort, SortMethod::mpvo);
 }
 
 TEST_F(PlanTest, TheCpuDrawsWhatItCan) {
