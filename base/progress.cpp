@@ -30,16 +30,20 @@ void Progress::advance(std::uint64_t steps) {
   if (last_drawn_ms_.compare_exchange_strong(last, now)) draw(done);
 }
 
+void Progress::set_stage(const std::string& stage) {
+  stage_ = stage.empty() ? "" : ": " + stage;
+}
+
 void Progress::draw(std::uint64_t done) {
   drawn_ = true;
   const double seconds = clock_.milliseconds() / 1000.0;
   if (total_ == 0) {
-    fmt::print(stderr, "\r\033[K{} {:.0f} s", label_, seconds);
+    fmt::print(stderr, "\r\033[K{}{} {:.0f} s", label_, stage_, seconds);
   } else {
     const double part =
         std::clamp(static_cast<double>(done) / static_cast<double>(total_), 1e-9, 1.0);
     const int bars = static_cast<int>(part * 30);
-    fmt::print(stderr, "\r\033[K{} [{:<30}] {:3.0f} % {:.0f} s left", label_,
+    fmt::print(stderr, "\r\033[K{}{} [{:<30}] {:3.0f} % {:.0f} s left", label_, stage_,
                std::string(bars, '='), 100 * part, seconds * (1 - part) / part);
   }
   std::fflush(stderr);

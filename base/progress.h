@@ -20,10 +20,14 @@ class Progress {
 
   void advance(std::uint64_t steps = 1);
 
+  /// Says what is being done, behind the label. Not from several threads at once.
+  void set_stage(const std::string& stage);
+
  private:
   void draw(std::uint64_t done);
 
   std::string label_;
+  std::string stage_;
   std::uint64_t total_;
   bool terminal_;
   Stopwatch clock_;

@@ -125,8 +125,9 @@ TetMesh make_heat_sink(std::size_t cells) {
         "a heat sink of so many cells is more than TetGen can make; ask for at most 100 million");
   }
   std::vector<std::string> notes;  // a sample has nothing to tell that its name does not
-  TetMesh mesh = fill_surface(heat_sink_surface(), notes,
-                              static_cast<double>(cells == 0 ? kPaperCells : cells));
+  FillOptions options;
+  options.cells = static_cast<double>(cells == 0 ? kPaperCells : cells);
+  TetMesh mesh = fill_surface(heat_sink_surface(), notes, options);
   HeatProblem problem;
   problem.conductivity = kConductivity;
   problem.ambient = kAir;

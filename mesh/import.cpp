@@ -33,7 +33,9 @@
 #include "mesh/read_ucd.h"
 #include "mesh/read_volume.h"
 #include "mesh/read_vtk.h"
+#include "mesh/surface_fields.h"
 #include "mesh/tetrahedralize.h"
+#include "mesh/weld.h"
 
 namespace tetraglass::mesh {
 namespace {
@@ -185,13 +187,26 @@ TetMesh split_solids(MeshData data, const ImportOptions& options, ImportReport& 
   return std::move(split.mesh);
 }
 
+/// Fields of the tetrahedra made for a surface or an image: those carried over first, then the
+/// distance, then the regions.
+void order_fields(TetMesh& mesh) {
+  mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
+  std::ranges::stable_sort(mesh.fields, {}, [](const Field& field) {
+    return field.location == Location::cell && field.name == "region";
+  });
+}
+
 /// A surface that cannot be filled is told with what a repair has done to it before.
 TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std::string>& notes) {
   const MeshData repaired =
       options.repair ? repair_surface(data, options.largest_hole, notes) : MeshData();
+  const MeshData& surface = options.repair ? repaired : data;
   try {
-    TetMesh mesh = fill_surface(options.repair ? repaired : data, notes);
-    mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
+    TetMesh mesh = options.tetrahedralizer == Tetrahedralizer::cgal
+                       ? remesh_surface(surface, notes, options.fill)
+                       : fill_surface(surface, notes, options.fill);
+    carry_surface_fields(surface, mesh, notes);
+    order_fields(mesh);
     return mesh;
   } catch (const base::InputError& error) {
     if (!options.repair) throw base::InputError(std::string(error.what()) + "; try --repair");
@@ -200,23 +215,61 @@ TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std
   }
 }
 
-TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& options,
-                        ImportReport& report) {
-  switch (kind_of(report, may_be_points)) {
-    case Kind::solids:
-      return split_solids(std::move(data), options, report);
-    case Kind::surface:
-      return fill(data, options, report.notes);
-    case Kind::points:
-      break;
-  }
-  TetMesh mesh = delaunay(data, report.notes);
+TetMesh fill_points(const MeshData& data, std::vector<std::string>& notes) {
+  TetMesh mesh = delaunay(data, notes);
   const bool has_fields = std::ranges::any_of(
       mesh.fields, [](const Field& field) { return field.location == Location::point; });
   if (!has_fields) {
     mesh.fields.push_back({"distance", Location::point, 1, boundary_distance(mesh)});
   }
   return mesh;
+}
+
+void weld_points(MeshData& data, double distance, std::vector<std::string>& notes) {
+  const Welding welding = weld(data, distance);
+  notes.push_back(
+      fmt::format("{} points within {:g} of others: made one", welding.merged, distance));
+  if (welding.collapsed > 0) {
+    notes.push_back(
+        fmt::format("{} cells that collapsed with them are left out", welding.collapsed));
+  }
+}
+
+TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& options,
+                        ImportReport& report) {
+  std::vector<std::string>& notes = report.notes;
+  if (options.weld) weld_points(data, *options.weld, notes);
+  if (options.regions) {
+    TetMesh mesh = mesh_volume(data, *options.regions, notes, options.fill);
+    order_fields(mesh);
+    return mesh;
+  }
+  const Kind kind = kind_of(report, may_be_points);
+  if (options.tetrahedralizer == Tetrahedralizer::delaunay) {
+    if (kind != Kind::points) notes.push_back("its cells are left out, its points count");
+    return fill_points(data, notes);
+  }
+  const bool chosen = options.tetrahedralizer != Tetrahedralizer::automatic;
+  switch (kind) {
+    case Kind::solids:
+      if (chosen || options.repair) {
+        throw base::InputError(
+            "has cells of dimension 3, which are split: --tetrahedralize tetgen|cgal and --repair "
+            "are for surfaces");
+      }
+      break;
+    case Kind::surface:
+      return fill(data, options, notes);
+    case Kind::points:
+      if (chosen) {
+        throw base::InputError("has points alone: --tetrahedralize tetgen|cgal is for surfaces");
+      }
+      return fill_points(data, notes);
+  }
+  if (const std::size_t unused = unused_points(data); unused > 0) {
+    notes.push_back(fmt::format("{} points that no cell uses are left out", unused));
+  }
+  return split_solids(std::move(data), options, report);
 }
 
 }  // namespace

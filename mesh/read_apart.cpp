@@ -132,7 +132,7 @@ MeshData read_apart(const std::string& file, const std::function<MeshData()>& re
           return kInputError + std::string(error.what());
         }
       },
-      seconds);
+      seconds, "reading");
   if (!apart.ending.empty() || apart.result.empty()) {
     throw base::ReadError(file, "is damaged: the library that reads such files " +
                                     (apart.ending.empty() ? "returned nothing" : apart.ending));

@@ -275,7 +275,7 @@ MeshData repair_surface(const MeshData& data, double largest_hole,
                         std::vector<std::string>& notes) {
   const TriangleSurface surface = collect_triangles(data, notes);
   const Apart apart =
-      run_apart([&] { return Repair(surface, largest_hole).parcel(); }, kMostSeconds);
+      run_apart([&] { return Repair(surface, largest_hole).parcel(); }, kMostSeconds, "repair");
   if (!apart.ending.empty() || apart.result.size() < sizeof(Counts)) {
     throw base::InputError("the repair of the surface " +
                            (apart.ending.empty() ? "failed" : apart.ending) +

@@ -12,8 +12,11 @@ struct Apart {
 };
 
 /// Does the work in a copy of this process, so that libraries that end the process where they fail
-/// end only the copy. What is printed there is lost, and so is every change of memory. The copy may
-/// use `seconds` of processor time. Throws Error where the system allows no more processes.
-[[nodiscard]] Apart run_apart(const std::function<std::string()>& work, unsigned seconds);
+/// end only the copy. The last line that is printed there on stdout is shown, with `label`, beside
+/// the time (base/progress.h); all else that is printed is lost, and so is every change of memory.
+/// The copy may use `seconds` of processor time, and as much memory as the machine has. Throws
+/// Error where the system allows no more processes.
+[[nodiscard]] Apart run_apart(const std::function<std::string()>& work, unsigned seconds,
+                              const std::string& label);
 
 }  // namespace tetraglass::mesh

@@ -33,9 +33,10 @@ namespace {
 /// many tetrahedra as wanted on the surfaces that this was tried on, and up to 1.5 times on some of
 /// many thin walls; with 2 there were 1.1 to 1.8 times as many.
 constexpr double kLargestOfMean = 4;
-/// The largest ratio of circumradius to shortest edge. TetGen's refinement ends for 2 (Si 2015,
-/// Theorem 6.1).
-constexpr double kRadiusEdgeRatio = 2;
+/// The largest volume over that of the lattice's tetrahedra, where the largest is asked for: those
+/// between the lattice and the surface are larger than the lattice's own.
+constexpr double kMeanOfLargest = 2;
+constexpr double kMostCells = 2e7;  ///< TetGen takes about 1 kB for each
 /// A surface is kept as it is where its edges are at most so many times as long as the wanted
 /// tetrahedra's: then points inside fit to it.
 constexpr double kFineEdges = 2;
@@ -130,6 +131,17 @@ struct Filling {
   std::vector<Eigen::Vector3d> points;
   std::vector<Cell> cells;
   std::vector<int> regions;  ///< of each cell
+
+  [[nodiscard]] bool contains(const Cell& cell, const Eigen::Vector3d& place) const {
+    for (const auto& face : kFaceVertices) {
+      if (orientation(points[cell[static_cast<std::size_t>(face[0])]],
+                      points[cell[static_cast<std::size_t>(face[1])]],
+                      points[cell[static_cast<std::size_t>(face[2])]], place) > 0) {
+        return false;
+      }
+    }
+    return true;
+  }
 };
 
 /// Of each region, whether it is solid.
@@ -149,23 +161,41 @@ std::map<int, bool> solid_regions(const TriangleSurface& surface, const Filling&
   for (const auto& [region, entry] : largest) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     for (const std::uint32_t i : filling.cells[entry.second]) center += filling.points[i] / 4;
-    solid[region] = is_solid(surface, center);
+    solid[region] = surface.inner_walls || is_solid(surface, center);
   }
   return solid;
 }
 
-TetMesh solid_part(const TriangleSurface& surface, Filling filling) {
+/// The region that a place of a hole lies in.
+int region_at(const Filling& filling, const Eigen::Vector3d& place) {
+  for (std::size_t i = 0; i < filling.cells.size(); ++i) {
+    if (filling.contains(filling.cells[i], place)) return filling.regions[i];
+  }
+  throw base::InputError(fmt::format("the place of a hole, ({:g}, {:g}, {:g}), lies outside",
+                                     place.x(), place.y(), place.z()));
+}
+
+TetMesh solid_part(const TriangleSurface& surface, Filling filling,
+                   std::span<const Eigen::Vector3d> holes) {
   for (Cell& cell : filling.cells) {
     const auto [a, b, c, d] = cell;
     const std::vector<Eigen::Vector3d>& p = filling.points;
     if (orientation(p[a], p[b], p[c], p[d]) < 0) std::swap(cell[2], cell[3]);
   }
-  const std::map<int, bool> solid = solid_regions(surface, filling);
+  std::map<int, bool> solid = solid_regions(surface, filling);
+  for (const Eigen::Vector3d& place : holes) solid[region_at(filling, place)] = false;
+  std::map<int, int> numbers;  // of the solid regions
+  for (const auto& [region, is_solid] : solid) {
+    if (is_solid) numbers.emplace(region, static_cast<int>(numbers.size()) + 1);
+  }
   TetMesh mesh;
+  Field region{"region", Location::cell, 1, {}};
   constexpr std::uint32_t kUnused = 0xffffffffU;
   std::vector<std::uint32_t> number(filling.points.size(), kUnused);
   for (std::size_t i = 0; i < filling.cells.size(); ++i) {
-    if (!solid.at(filling.regions[i])) continue;
+    const auto found = numbers.find(filling.regions[i]);
+    if (found == numbers.end()) continue;
+    region.values.push_back(found->second);
     Cell cell = filling.cells[i];
     for (std::uint32_t& p : cell) {
       if (number[p] == kUnused) {
@@ -176,6 +206,7 @@ TetMesh solid_part(const TriangleSurface& surface, Filling filling) {
     }
     mesh.cells.push_back(cell);
   }
+  if (numbers.size() > 1) mesh.fields.push_back(std::move(region));
   return mesh;
 }
 
@@ -208,9 +239,10 @@ std::string tetgen_parcel(const TriangleSurface& surface, std::span<const Eigen:
 /// ends the process where one of its assertions fails.
 std::optional<TetMesh> run_tetgen(const TriangleSurface& surface,
                                   std::span<const Eigen::Vector3d> inside,
-                                  const std::string& switches) {
+                                  const std::string& switches,
+                                  std::span<const Eigen::Vector3d> holes) {
   const Apart apart =
-      run_apart([&] { return tetgen_parcel(surface, inside, switches); }, kMostSeconds);
+      run_apart([&] { return tetgen_parcel(surface, inside, switches); }, kMostSeconds, "TetGen");
   Parcel parcel(apart.result);
   if (!apart.ending.empty() || parcel.bytes.size() < 4 * sizeof(int)) return std::nullopt;
   const std::vector<int> head = parcel.take<int>(4);
@@ -231,7 +263,7 @@ std::optional<TetMesh> run_tetgen(const TriangleSurface& surface,
     filling.regions.push_back(attributes > 0 ? static_cast<int>(regions[attributes * (i + 1) - 1])
                                              : 0);
   }
-  return solid_part(surface, std::move(filling));
+  return solid_part(surface, std::move(filling), holes);
 }
 
 /// Whether the triangles are about as small as the tetrahedra that are wanted inside, or smaller.
@@ -248,32 +280,66 @@ bool is_fine(const TriangleSurface& surface, double volume_of_cell) {
   return surface_edge <= kFineEdges * cell_edge;
 }
 
-}  // namespace
+/// The volume of all regions that inner walls part.
+double volume_within_walls(const TriangleSurface& surface) {
+  const std::optional<TetMesh> mesh = run_tetgen(surface, {}, "pYAQ", {});
+  double volume = 0;
+  if (!mesh) return volume;
+  for (const Cell& c : mesh->cells) {
+    const Eigen::Vector3d& a = mesh->points[c[0]];
+    volume +=
+        (mesh->points[c[1]] - a).cross(mesh->points[c[2]] - a).dot(mesh->points[c[3]] - a) / 6;
+  }
+  return volume;
+}
 
-TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes, double cells) {
-  const TriangleSurface surface = triangle_surface(data, notes);
-  check_embedded(surface);
-  const double volume = std::abs(enclosed_volume(surface));
-  if (!(volume > 0)) throw base::InputError("the surface encloses no volume");
-  const std::vector<Eigen::Vector3d> inside = interior_points(surface, volume / cells);
-  const std::string quality =
-      fmt::format("q{}a{:e}AQ", kRadiusEdgeRatio, kLargestOfMean * volume / cells);
-  std::optional<TetMesh> mesh;
-  bool kept = is_fine(surface, volume / cells);
-  if (kept) mesh = run_tetgen(surface, inside, "pY" + quality);
-  if (!mesh) {
-    kept = false;
-    mesh = run_tetgen(surface, inside, "p" + quality);
-  }
-  if (!mesh) {
-    throw base::InputError("the surface could not be filled: TetGen fails on it");
-  }
-  if (mesh->cells.empty()) throw base::InputError("the surface encloses no volume");
+void tell(const TriangleSurface& surface, const TetMesh& mesh, bool kept, double regions,
+          std::vector<std::string>& notes) {
   notes.push_back(
       fmt::format("{} triangles in {} shells{}, filled by TetGen with {} points added{}",
                   surface.triangles.size(), surface.shells.size(), kept ? ", kept as they are" : "",
-                  mesh->points.size() - std::min(mesh->points.size(), surface.points.size()),
+                  mesh.points.size() - std::min(mesh.points.size(), surface.points.size()),
                   kept ? " inside" : " inside and on the surface"));
+  if (regions > 1) notes.push_back(fmt::format("{} regions: cell field 'region'", regions));
+}
+
+}  // namespace
+
+TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
+                     const FillOptions& options) {
+  const TriangleSurface surface = triangle_surface(data, notes);
+  check_embedded(surface);
+  const double volume =
+      surface.inner_walls ? volume_within_walls(surface) : std::abs(enclosed_volume(surface));
+  if (!(volume > 0)) throw base::InputError("the surface encloses no volume");
+  const double largest =
+      options.max_volume > 0 ? options.max_volume : kLargestOfMean * volume / options.cells;
+  const double mean = options.max_volume > 0 ? largest / kMeanOfLargest : volume / options.cells;
+  if (volume / mean > kMostCells) {
+    throw base::InputError(fmt::format(
+        "tetrahedra of at most {:g} would be about {:.2g} in the volume of {:g}; TetGen "
+        "takes up to {:g}",
+        largest, volume / mean, volume, kMostCells));
+  }
+  const std::vector<Eigen::Vector3d> inside = interior_points(surface, mean);
+  const std::string quality =
+      fmt::format("q{}/{}a{:e}A", options.radius_edge_ratio, options.min_dihedral, largest);
+  std::optional<TetMesh> mesh;
+  bool kept = options.keep_surface || is_fine(surface, mean);
+  if (kept) mesh = run_tetgen(surface, inside, "pY" + quality, options.holes);
+  if (!mesh && !options.keep_surface) {
+    kept = false;
+    mesh = run_tetgen(surface, inside, "p" + quality, options.holes);
+  }
+  if (!mesh) {
+    throw base::InputError(fmt::format(
+        "the surface could not be filled: TetGen fails on it{}, or needs more than {} s",
+        options.keep_surface ? " where it is to be kept" : "", kMostSeconds));
+  }
+  if (mesh->cells.empty()) throw base::InputError("the surface encloses no volume");
+  const double regions =
+      mesh->fields.empty() ? 1 : *std::ranges::max_element(mesh->fields[0].values);
+  tell(surface, *mesh, kept, regions, notes);
   return std::move(*mesh);
 }
 
@@ -284,7 +350,7 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes, doub
 namespace tetraglass::mesh {
 
 TetMesh fill_surface(const MeshData& /*data*/, std::vector<std::string>& /*notes*/,
-                     double /*cells*/) {
+                     const FillOptions& /*options*/) {
   throw base::UnavailableError(
       "filling a surface needs TetGen, which this build lacks (TETRAGLASS_WITH_TETGEN)");
 }

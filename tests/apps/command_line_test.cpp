@@ -242,6 +242,31 @@ TEST_F(CommandLine, WrongUsageShowsTheRightOne) {
   EXPECT_TRUE(output_.is_empty());
 }
 
+TEST_F(CommandLine, WaysToMakeTetrahedraAreChecked) {
+  const TemporaryFolder folder;
+  const std::string box = folder.file("box.off");
+  write_text(box,
+             "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+             "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 4 5 6 7\n");
+  const std::string import = "import " + box + " -o " + folder.file("box.vtu");
+  expect_error(import + " --tetrahedralize tetgne", 2, "did you mean 'tetgen'");
+  expect_error(import + " --quality 0.5", 2, "a ratio above 1");
+  expect_error(import + " --quality 2:90", 2, "below 60");
+  expect_error(import + " --max-volume 0", 2, "above 0");
+  expect_error(import + " --weld -1", 2, "at least 0");
+  expect_error(import + " --hole 1,2", 2, "3 numbers");
+  expect_error(import + " --largest-hole 0.5", 2, "--repair");
+  expect_error(import + " --labels --surface-at 1", 2, "--labels");
+  expect_error(import + " --surface-at 1", 1, "regular grid");
+  expect_error("info " + sphere() + " --tetrahedralize tetgen", 1, "for surfaces");
+  const ProgramRun run = run_program(import + " --max-volume 0.01 --hole 0.5,0.5,7");
+#ifdef TETRAGLASS_WITH_TETGEN
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("(0.5, 0.5, 7), lies outside"), std::string::npos) << run.err;
+  EXPECT_EQ(run_program(import + " --max-volume 0.01 --quality 1.5:10").status, 0);
+#endif
+}
+
 TEST_F(CommandLine, HelpAndVersion) {
   EXPECT_EQ(run_program("--help").status, 0);
   const ProgramRun help = run_program("render --help");

@@ -12,16 +12,25 @@ namespace {
 
 TEST(RunApart, GivesBackWhatTheWorkReturns) {
   const std::string large(3'000'000, 'x');
-  const Apart apart = run_apart([&] { return large + '\0' + "end"; }, 10);
+  const Apart apart = run_apart([&] { return large + '\0' + "end"; }, 10, "test");
   EXPECT_EQ(apart.ending, "");
   EXPECT_EQ(apart.result, large + '\0' + "end");
 }
 
 TEST(RunApart, OutlivesWorkThatEndsItsProcess) {
-  EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }, 10).ending, "was stopped (Aborted)");
-  EXPECT_EQ(run_apart([]() -> std::string { throw std::runtime_error("no"); }, 10).ending,
+  EXPECT_EQ(run_apart([]() -> std::string { std::abort(); }, 10, "test").ending,
+            "was stopped (Aborted)");
+  EXPECT_EQ(run_apart([]() -> std::string { throw std::runtime_error("no"); }, 10, "test").ending,
             "failed");
-  EXPECT_EQ(run_apart([]() -> std::string { std::_Exit(3); }, 10).ending, "failed");
+  EXPECT_EQ(run_apart([]() -> std::string { std::_Exit(3); }, 10, "test").ending, "failed");
+}
+
+TEST(RunApart, SaysThatMemoryRanOut) {
+  const auto ask_for_all = []() -> std::string {
+    const std::string all(std::size_t{1} << 62U, 'x');
+    return all.substr(0, 1);
+  };
+  EXPECT_EQ(run_apart(ask_for_all, 10, "test").ending, "took more memory than there is");
 }
 
 TEST(RunApart, StopsWorkThatDoesNotEnd) {
@@ -30,8 +39,8 @@ TEST(RunApart, StopsWorkThatDoesNotEnd) {
         for (std::atomic<int> i = 0;; ++i) {
         }
       },
-      1);
-  EXPECT_NE(apart.ending, "");
+      1, "test");
+  EXPECT_EQ(apart.ending, "took more than 1 s");
 }
 
 TEST(RunApart, PrintsNothingAndChangesNothing) {
@@ -46,7 +55,7 @@ TEST(RunApart, PrintsNothingAndChangesNothing) {
         std::fflush(stdout);
         return std::string();
       },
-      10));
+      10, "test"));
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(value, 1);

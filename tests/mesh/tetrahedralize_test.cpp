@@ -109,6 +109,97 @@ TEST(FillSurface, JoinsPointsThatAreEqual) {
   EXPECT_NEAR(total_volume(fill_surface(soup, notes)), 1, 1e-10);
 }
 
+/// The cells' largest and smallest volume.
+std::pair<double, double> volume_range(const TetMesh& mesh) {
+  std::pair<double, double> range = {1e300, 0};
+  for (const Cell& cell : mesh.cells) {
+    range.first = std::min(range.first, tests::volume(mesh, cell));
+    range.second = std::max(range.second, tests::volume(mesh, cell));
+  }
+  return range;
+}
+
+TEST(FillSurface, KeepsToTheLargestVolumeAndTheQuality) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 1);
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.max_volume = 1e-3;
+  options.radius_edge_ratio = 1.4;
+  options.min_dihedral = 14;
+  const TetMesh mesh = fill_surface(data, notes, options);
+  EXPECT_NEAR(total_volume(mesh), 1, 1e-12);
+  EXPECT_LE(volume_range(mesh).second, 1e-3);
+  EXPECT_GT(check(mesh).min_dihedral_degrees, 13);
+  options.max_volume = 1e-12;
+  EXPECT_THROW(static_cast<void>(fill_surface(data, notes, options)), base::InputError);
+}
+
+TEST(FillSurface, KeepsTheSurfaceWhereAskedTo) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 1);
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.keep_surface = true;
+  options.max_volume = 0.01;
+  const TetMesh mesh = fill_surface(data, notes, options);
+  EXPECT_EQ(check(mesh).boundary_faces, 12U);
+  EXPECT_NEAR(total_volume(mesh), 1, 1e-12);
+  EXPECT_GT(mesh.points.size(), 8U);
+}
+
+TEST(FillSurface, LeavesRegionsOfHolesEmpty) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 3);
+  add_cube(data, {1, 1, 1}, 1);  // turned outwards: a part of the solid
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.cells = 1000;
+  const TetMesh both = fill_surface(data, notes, options);
+  ASSERT_EQ(both.fields.size(), 1U);
+  EXPECT_EQ(both.fields[0].name, "region");
+  double inner = 0;
+  for (std::size_t i = 0; i < both.cells.size(); ++i) {
+    Vector3d center = Vector3d::Zero();
+    for (const std::uint32_t p : both.cells[i]) center += both.points[p] / 4;
+    const bool within = ((center - Vector3d(1.5, 1.5, 1.5)).cwiseAbs().array() < 0.5).all();
+    if (within) inner += tests::volume(both, both.cells[i]);
+  }
+  EXPECT_NEAR(inner, 1, 1e-12);
+  options.holes = {{1.5, 1.5, 1.5}};
+  EXPECT_NEAR(total_volume(fill_surface(data, notes, options)), 26, 1e-10);
+  options.holes = {{0.1, 0.1, 0.1}};
+  EXPECT_NEAR(total_volume(fill_surface(data, notes, options)), 1, 1e-10);
+  options.holes = {{9, 9, 9}};
+  EXPECT_THROW(static_cast<void>(fill_surface(data, notes, options)), base::InputError);
+}
+
+// Two boxes that share a wall: its edges have three triangles.
+TEST(FillSurface, WallsWithinMakeRegions) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 1);
+  add_cube(data, {1, 0, 0}, 1);
+  data.types.erase(data.types.begin() + 10);  // the square x = 1 is there already
+  data.connectivity.erase(data.connectivity.begin() + 40, data.connectivity.begin() + 44);
+  data.offsets.pop_back();
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.cells = 1000;
+  const TetMesh mesh = fill_surface(data, notes, options);
+  EXPECT_NEAR(total_volume(mesh), 2, 1e-12);
+  EXPECT_GT(mesh.cells.size(), 500U);
+  ASSERT_EQ(mesh.fields.size(), 1U);
+  for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+    double x = 0;
+    for (const std::uint32_t p : mesh.cells[i]) x += mesh.points[p].x() / 4;
+    EXPECT_EQ(
+        mesh.fields[0].values[i] == mesh.fields[0].values[0],
+        (x < 1) == (mesh.points[mesh.cells[0][0]].x() + mesh.points[mesh.cells[0][1]].x() +
+                        mesh.points[mesh.cells[0][2]].x() + mesh.points[mesh.cells[0][3]].x() <
+                    4));
+  }
+}
+
 #else
 
 TEST(FillSurface, SaysThatThisBuildCannot) {
@@ -229,6 +320,46 @@ TEST(Delaunay, RefusesPointsWithoutVolume) {
 TEST(Delaunay, SaysThatThisBuildCannot) {
   std::vector<std::string> notes;
   EXPECT_THROW(static_cast<void>(delaunay({}, notes)), base::UnavailableError);
+}
+
+#endif
+
+#ifdef TETRAGLASS_WITH_CGAL
+
+TEST(RemeshSurface, FillsACubeWithACavityAndKeepsItsEdges) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 3);
+  add_cube(data, {1, 1, 1}, 1, false);
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.cells = 2000;
+  const TetMesh mesh = remesh_surface(data, notes, options);
+  EXPECT_NEAR(total_volume(mesh), 26, 0.05);
+  EXPECT_GT(mesh.cells.size(), 1000U);
+  EXPECT_LT(mesh.cells.size(), 6000U);
+  EXPECT_EQ(check(mesh).degenerate, 0U);
+  for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(3, 3, 3), Vector3d(1, 1, 2)}) {
+    EXPECT_NE(std::ranges::find(mesh.points, corner), mesh.points.end());
+  }
+  options = {};
+  options.max_volume = 0.05;
+  const TetMesh fine = remesh_surface(data, notes, options);
+  for (const Cell& cell : fine.cells) {
+    ASSERT_GT(tests::volume(fine, cell), 0);
+    ASSERT_LE(tests::volume(fine, cell), 1.4 * 0.05);
+  }
+}
+
+TEST(RemeshSurface, RefusesWhatTetGenAloneCanDo) {
+  MeshData data;
+  add_cube(data, {0, 0, 0}, 3);
+  std::vector<std::string> notes;
+  FillOptions options;
+  options.keep_surface = true;
+  EXPECT_THROW(static_cast<void>(remesh_surface(data, notes, options)), base::InputError);
+  data.types.pop_back();
+  data.offsets.pop_back();
+  EXPECT_THROW(static_cast<void>(remesh_surface(data, notes)), base::InputError);
 }
 
 #endif
