@@ -1,4 +1,7 @@
+#include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -68,8 +71,26 @@ Json describe(const mesh::Import& imported) {
           {"delaunay", soundness.delaunay},
           {"quality",
            {{"min_dihedral_deg", soundness.min_dihedral_degrees},
-            {"histogram", soundness.dihedral_histogram}}},
+            {"histogram", soundness.dihedral_histogram},
+            {"min_radius_ratio", soundness.min_radius_ratio},
+            {"radius_ratio_histogram", soundness.radius_ratio_histogram}}},
           {"notes", imported.report.notes}};
+}
+
+/// What part of the cells lies below each bound of a histogram over [0, last].
+std::string shares(const Json& histogram, double last, std::initializer_list<double> bounds) {
+  const std::vector<std::size_t> counts = histogram.get<std::vector<std::size_t>>();
+  const double all =
+      static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+  std::string text;
+  for (const double bound : bounds) {
+    const auto bins = std::lround(bound / last * static_cast<double>(counts.size()));
+    const std::size_t below =
+        std::accumulate(counts.begin(), counts.begin() + bins, std::size_t{0});
+    text += fmt::format(", {:.3g} % below {:g}",
+                        all > 0 ? 100 * static_cast<double>(below) / all : 0.0, bound);
+  }
+  return text;
 }
 
 void print_for_people(const std::string& file, const Json& json) {
@@ -100,11 +121,17 @@ void print_for_people(const std::string& file, const Json& json) {
       "cells\n",
       json["degenerate"].get<std::size_t>(), json["inverted"].get<std::size_t>(),
       json["nan_values"].get<std::size_t>(), json["crowded_faces"].get<std::size_t>());
-  fmt::print("  {} part(s), {} boundary faces, {}, {}; smallest dihedral angle {:.3g} degrees\n",
-             json["parts"].get<std::size_t>(), json["boundary_faces"].get<std::size_t>(),
+  fmt::print("  {} part(s), {} boundary faces, {}, {}\n", json["parts"].get<std::size_t>(),
+             json["boundary_faces"].get<std::size_t>(),
              json["convex"].get<bool>() ? "convex" : "not convex",
-             json["delaunay"].get<bool>() ? "Delaunay" : "not Delaunay",
-             json["quality"]["min_dihedral_deg"].get<double>());
+             json["delaunay"].get<bool>() ? "Delaunay" : "not Delaunay");
+  const Json& quality = json["quality"];
+  fmt::print("  smallest dihedral angle of a cell: {:.3g} degrees at least{}\n",
+             quality["min_dihedral_deg"].get<double>(),
+             shares(quality["histogram"], 90, {10, 20, 30}));
+  fmt::print("  radius ratio (1: regular): {:.3g} at least{}\n",
+             quality["min_radius_ratio"].get<double>(),
+             shares(quality["radius_ratio_histogram"], 1, {0.1, 0.3, 0.6}));
 }
 
 }  // namespace

@@ -60,6 +60,12 @@ void gradients_at_vertices(benchmark::State& state) {
   measure(state, mesh, [&](const TetMesh& m) { return vertex_gradients(m, field); });
 }
 
+void gradients_by_least_squares(benchmark::State& state) {
+  const TetMesh mesh = grid(state);
+  const ScalarField field = select_scalar(mesh, "sphere");
+  measure(state, mesh, [&](const TetMesh& m) { return least_squares_gradients(m, field); });
+}
+
 void drawable(benchmark::State& state) {
   const TetMesh mesh = grid(state);
   const ScalarField field = select_scalar(mesh, "sphere");
@@ -79,6 +85,7 @@ BENCHMARK(adjacency_shuffled)->Apply(sizes);
 BENCHMARK(soundness)->Apply(sizes);
 BENCHMARK(distance)->Apply(sizes);
 BENCHMARK(gradients_at_vertices)->Apply(sizes);
+BENCHMARK(gradients_by_least_squares)->Apply(sizes);
 BENCHMARK(drawable)->Apply(sizes);
 BENCHMARK(sample)->Apply(sizes)->Arg(10000000);
 

@@ -109,33 +109,21 @@ std::size_t count_parts(const Adjacency& adjacency) {
   return parts.count();
 }
 
-struct Shape {
-  std::size_t not_finite = 0;
-  std::size_t degenerate = 0;
-  double min_angle = std::numeric_limits<double>::infinity();
-  std::array<std::size_t, 18> histogram{};
+struct Quality {
+  double min_dihedral = 0;  // degrees
+  double radius_ratio = 0;
 };
 
-// The smallest of the six angles between the faces, in degrees. Outward normals enclose its
-// supplement. Sines come from cross products, which keep small angles accurate; the smallest angle
-// in [0, pi] is that of the largest cotangent.
-double smallest_dihedral(const std::array<Vector3d, 4>& p) {
-  const std::array<Vector3d, 3> edges = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
-  // Scaled to edges of about 1, products neither overflow nor underflow whatever the mesh's units.
-  double longest = 0;
-  for (const Vector3d& edge : edges) longest = std::max(longest, edge.cwiseAbs().maxCoeff());
-  const Vector3d a = edges[0] / longest;
-  const Vector3d b = edges[1] / longest;
-  const Vector3d c = edges[2] / longest;
-  const std::array<Vector3d, 4> normals = {(b - a).cross(c - a).normalized(),
-                                           c.cross(b).normalized(), a.cross(c).normalized(),
-                                           b.cross(a).normalized()};
+// The smallest of the six angles between the faces: outward normals enclose its supplement. Sines
+// come from cross products, which keep small angles accurate; the smallest angle in [0, pi] is that
+// of the largest cotangent.
+double smallest_dihedral(const std::array<Vector3d, 4>& unit_normals) {
   double best_cosine = -1;
   double best_sine = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) {
-      const double cosine = -normals[i].dot(normals[j]);
-      const double sine = normals[i].cross(normals[j]).norm();
+      const double cosine = -unit_normals[i].dot(unit_normals[j]);
+      const double sine = unit_normals[i].cross(unit_normals[j]).norm();
       if (cosine * best_sine >= best_cosine * sine) {
         best_cosine = cosine;
         best_sine = sine;
@@ -144,6 +132,47 @@ double smallest_dihedral(const std::array<Vector3d, 4>& p) {
   }
   return std::atan2(best_sine, best_cosine) * 180 / std::numbers::pi;
 }
+
+// With p[0] at the origin, V the volume and A the area of all faces, the radii are 3 V / A and
+// | a^2 b x c + b^2 c x a + c^2 a x b | / (12 V).
+Quality quality_of(const std::array<Vector3d, 4>& p) {
+  const std::array<Vector3d, 3> edges = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
+  // Scaled to edges of about 1, products neither overflow nor underflow whatever the mesh's units.
+  double longest = 0;
+  for (const Vector3d& edge : edges) longest = std::max(longest, edge.cwiseAbs().maxCoeff());
+  const Vector3d a = edges[0] / longest;
+  const Vector3d b = edges[1] / longest;
+  const Vector3d c = edges[2] / longest;
+  std::array<Vector3d, 4> normals = {(b - a).cross(c - a), c.cross(b), a.cross(c), b.cross(a)};
+  double area = 0;  // twice that of the faces
+  for (Vector3d& normal : normals) {
+    const double length = normal.norm();
+    area += length;
+    normal /= length;
+  }
+  const double volume = std::abs(a.dot(b.cross(c)));  // six times that of the cell
+  const double around =
+      (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b))
+          .norm();
+  return {smallest_dihedral(normals), std::min(1.0, 6 * volume * volume / (area * around))};
+}
+
+struct Shape {
+  std::size_t not_finite = 0;
+  std::size_t degenerate = 0;
+  double min_angle = std::numeric_limits<double>::infinity();
+  std::array<std::size_t, 18> histogram{};
+  double min_ratio = std::numeric_limits<double>::infinity();
+  std::array<std::size_t, 20> ratio_histogram{};
+
+  void add(const Quality& quality) {
+    min_angle = std::min(min_angle, quality.min_dihedral);
+    ++histogram[std::min(static_cast<std::size_t>(quality.min_dihedral / 5), histogram.size() - 1)];
+    min_ratio = std::min(min_ratio, quality.radius_ratio);
+    ++ratio_histogram[std::min(static_cast<std::size_t>(quality.radius_ratio * 20),
+                               ratio_histogram.size() - 1)];
+  }
+};
 
 Shape examine_cells(const TetMesh& mesh) {
   return tbb::parallel_reduce(
@@ -164,10 +193,7 @@ Shape examine_cells(const TetMesh& mesh) {
             ++shape.degenerate;
             continue;
           }
-          const double angle = smallest_dihedral(p);
-          shape.min_angle = std::min(shape.min_angle, angle);
-          ++shape.histogram[std::min(static_cast<std::size_t>(angle / 5),
-                                     shape.histogram.size() - 1)];
+          shape.add(quality_of(p));
         }
         return shape;
       },
@@ -176,6 +202,10 @@ Shape examine_cells(const TetMesh& mesh) {
         a.degenerate += b.degenerate;
         a.min_angle = std::min(a.min_angle, b.min_angle);
         for (std::size_t i = 0; i < a.histogram.size(); ++i) a.histogram[i] += b.histogram[i];
+        a.min_ratio = std::min(a.min_ratio, b.min_ratio);
+        for (std::size_t i = 0; i < a.ratio_histogram.size(); ++i) {
+          a.ratio_histogram[i] += b.ratio_histogram[i];
+        }
         return a;
       });
 }
@@ -312,6 +342,8 @@ Soundness check(const TetMesh& mesh) {
   result.degenerate = shape.degenerate;
   result.dihedral_histogram = shape.histogram;
   result.min_dihedral_degrees = std::isfinite(shape.min_angle) ? shape.min_angle : 0;
+  result.min_radius_ratio = std::isfinite(shape.min_ratio) ? shape.min_ratio : 0;
+  result.radius_ratio_histogram = shape.ratio_histogram;
   result.parts = count_parts(adjacency);
   const bool whole = result.parts == 1 && result.crowded_faces == 0 && shape.not_finite == 0;
   result.convex = whole && is_convex(mesh, boundary_triangles(mesh, adjacency));

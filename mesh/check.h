@@ -31,6 +31,11 @@ struct Soundness {
   double min_dihedral_degrees = 0;
   /// The smallest dihedral angle of each cell with volume, in bins of 5 degrees over [0, 90).
   std::array<std::size_t, 18> dihedral_histogram{};
+  /// The smallest radius ratio over the cells with volume (three times the radius of the inscribed
+  /// over that of the circumscribed sphere: 1 for the regular tetrahedron); 0 if there are none.
+  double min_radius_ratio = 0;
+  /// The radius ratio of each cell with volume, in bins of 0.05 over [0, 1].
+  std::array<std::size_t, 20> radius_ratio_histogram{};
 };
 
 /// Examines a mesh. Cost: linear but for the sort of the boundary edges; all parallel.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include <Eigen/QR>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -85,6 +86,30 @@ Incidence cells_around_points(const TetMesh& mesh) {
   return result;
 }
 
+// The gradient at point p that fits the differences to its neighbours best.
+Vector3d fit_gradient(const TetMesh& mesh, const std::vector<double>& values, std::uint32_t p,
+                      const std::vector<std::uint32_t>& neighbors) {
+  if (neighbors.empty()) return Vector3d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 3> directions(neighbors.size(), 3);
+  Eigen::VectorXd slopes(neighbors.size());
+  Eigen::Index rows = 0;
+  double farthest = 0;
+  for (const std::uint32_t q : neighbors) {
+    farthest = std::max(farthest, (mesh.points[q] - mesh.points[p]).stableNorm());
+  }
+  // Nearer ones, of slivers, count less: over so short a way the rounding of values is magnified.
+  constexpr double kNearest = 1e-3;
+  for (const std::uint32_t q : neighbors) {
+    const Vector3d difference = mesh.points[q] - mesh.points[p];
+    const double distance = std::max(difference.stableNorm(), kNearest * farthest);
+    if (!(distance > 0) || q == p) continue;
+    directions.row(rows) = difference / distance;
+    slopes[rows++] = (values[q] - values[p]) / distance;
+  }
+  if (rows == 0) return Vector3d::Zero();
+  return directions.topRows(rows).completeOrthogonalDecomposition().solve(slopes.head(rows));
+}
+
 }  // namespace
 
 std::vector<Vector3d> cell_gradients(const TetMesh& mesh, const ScalarField& field) {
@@ -123,6 +148,36 @@ std::vector<Vector3d> vertex_gradients(const TetMesh& mesh, const ScalarField& f
         sum.weight += weighted[around.cells[i]].weight;
       }
       const Vector3d gradient = sum.gradient / sum.weight;
+      if (gradient.allFinite()) gradients[p] = gradient;
+    }
+  });
+  return gradients;
+}
+
+std::vector<Vector3d> least_squares_gradients(const TetMesh& mesh, const ScalarField& field) {
+  std::vector<Vector3d> gradients(mesh.points.size(), Vector3d::Zero());
+  if (field.location == Location::cell) return gradients;
+  std::vector<char> usable(mesh.cells.size());
+  tbb::parallel_for(Range(0, mesh.cells.size(), kGrain), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      usable[i] = has_gradient(mesh, field.values, mesh.cells[i]) ? 1 : 0;
+    }
+  });
+  const Incidence around = cells_around_points(mesh);
+  constexpr std::size_t kPointGrain = 256;
+  tbb::parallel_for(Range(0, mesh.points.size(), kPointGrain), [&](const Range& range) {
+    std::vector<std::uint32_t> neighbors;
+    for (std::size_t p = range.begin(); p != range.end(); ++p) {
+      neighbors.clear();
+      for (std::size_t i = around.begins[p]; i < around.begins[p + 1]; ++i) {
+        if (usable[around.cells[i]] == 0) continue;
+        const Cell& cell = mesh.cells[around.cells[i]];
+        neighbors.insert(neighbors.end(), cell.begin(), cell.end());
+      }
+      std::sort(neighbors.begin(), neighbors.end());
+      neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
+      const Vector3d gradient =
+          fit_gradient(mesh, field.values, static_cast<std::uint32_t>(p), neighbors);
       if (gradient.allFinite()) gradients[p] = gradient;
     }
   });

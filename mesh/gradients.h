@@ -20,4 +20,15 @@ namespace tetraglass::mesh {
 [[nodiscard]] std::vector<Eigen::Vector3d> vertex_gradients(const TetMesh& mesh,
                                                             const ScalarField& field);
 
+/// The gradients at the points by least squares: of the linear functions through the value of each
+/// point, that which comes nearest to the values at its neighbours (the other points of the cells
+/// around it), weighted by the inverse squared distance (of a thousandth of the farthest at least).
+/// Flat cells and slivers count no more than others: where the neighbours lie in a plane or line,
+/// the gradient lies in it too (the solution of least norm). Exact for linear fields; zero as in
+/// vertex_gradients. Source: Correa, Hero and Ma 2011, "A Comparison of Gradient Estimation Methods
+/// for Volume Rendering on Unstructured Meshes". Cost: a decomposition of a matrix of some 15 x 3
+/// numbers per point, in parallel.
+[[nodiscard]] std::vector<Eigen::Vector3d> least_squares_gradients(const TetMesh& mesh,
+                                                                   const ScalarField& field);
+
 }  // namespace tetraglass::mesh

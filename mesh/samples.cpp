@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include "base/errors.h"
 #include "base/suggest.h"
@@ -38,6 +39,18 @@ double linear(const Vector3d& p) {
   return 0.5 + (p.x() + 2 * p.y() + 3 * p.z()) / 12;
 }
 
+// Before a sample is made: whether it and what is needed to write it fit into this machine.
+void check_sample_fits(double points, double cells) {
+  const double bytes = 2 * (cells * sizeof(Cell) + points * (sizeof(Vector3d) + sizeof(double)));
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (bytes <= memory) return;
+  constexpr double kGigabyte = 1e9;
+  throw base::UsageError(
+      fmt::format("a sample of {:.3g} cells takes {:.3g} GB of memory; this machine has {:.3g} GB",
+                  cells, bytes / kGigabyte, memory / kGigabyte));
+}
+
 // The number of points along an edge for which 5 (n - 1)^3 comes nearest to `cells`.
 std::size_t grid_size(double cells) {
   const auto count = [](double voxels) { return 5 * voxels * voxels * voxels; };
@@ -49,6 +62,7 @@ std::size_t grid_size(double cells) {
         "a sample of {:.0f} cells has more points than 32-bit indices can number; ask for fewer",
         cells));
   }
+  check_sample_fits(points, count(voxels));
   return static_cast<std::size_t>(voxels) + 1;
 }
 
@@ -177,6 +191,7 @@ TetMesh make_cycle(std::size_t cells) {
     throw base::UsageError(
         "a sample of so many cells has more points than 32-bit indices can number");
   }
+  check_sample_fits(3.0 * double(sections), 3.0 * double(sections));
   TetMesh mesh;
   add_ring(mesh, static_cast<std::uint32_t>(sections));
   add_bars(mesh);

@@ -187,5 +187,22 @@ TEST(Check, FindsDoubledCells) {
   EXPECT_FALSE(soundness.convex);
 }
 
+TEST(Check, TheRadiusRatioIsThatOfTheInscribedAndTheCircumscribedSphere) {
+  TetMesh regular;
+  regular.points = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  regular.cells = {{0, 1, 2, 3}};
+  EXPECT_NEAR(check(regular).min_radius_ratio, 1, 1e-15);
+  EXPECT_EQ(check(regular).radius_ratio_histogram.back(), 1U);
+  // Of the corner of a cube: 1 / (3 + sqrt 3) and sqrt(3) / 2.
+  for (const double unit : {1e-120, 1.0, 1e120}) {
+    TetMesh corner = tests::unit_tetrahedron();
+    for (Vector3d& p : corner.points) p *= unit;
+    const Soundness soundness = check(corner);
+    const double ratio = 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2);
+    EXPECT_NEAR(soundness.min_radius_ratio, ratio, 1e-14) << unit;
+    EXPECT_EQ(soundness.radius_ratio_histogram[14], 1U) << unit;  // 0.732
+  }
+}
+
 }  // namespace
 }  // namespace tetraglass::mesh
