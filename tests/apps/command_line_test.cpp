@@ -1,6 +1,7 @@
 // The command line's contract, by running the built program.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -194,6 +195,61 @@ TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
   expect_error("table --kind full2d --size 32x8", 2, "NxM");
   expect_error("table --kind full3d --size 32", 2, "NxM");
   expect_error("table --kind fulll2d --size 32", 2, "'full2d'");
+}
+
+TEST_F(CommandLine, OrdersAreTimedAndVerified) {
+  const auto order = [](const std::string& arguments) {
+    const ProgramRun run = run_program("order " + arguments + " --rays 100 --json");
+    EXPECT_EQ(run.status, 0) << run.err;
+    return Json::parse(run.out);
+  };
+  for (const std::string method : {"mpvo", "power", "auto"}) {
+    const Json json = order(sphere() + " --sort " + method);
+    EXPECT_TRUE(json["exact"]) << method;
+    EXPECT_EQ(json["wrong_faces"], 0) << method;
+    EXPECT_EQ(json["wrong_rays"], 0) << method;
+    EXPECT_EQ(json["rays"], 100);
+    EXPECT_EQ(json["cycles"], 0);
+    EXPECT_GT(json["cells_per_s"].get<double>(), 0);
+  }
+  const std::string cycle = output_.file("cycle.vtu");
+  ASSERT_EQ(run_program("sample cycle -o " + cycle).status, 0);
+  const Json json = order(cycle + " --view +z --sort mpvo");
+  EXPECT_GT(json["cycles"], 0);
+  EXPECT_FALSE(json["exact"]);
+  EXPECT_EQ(order(cycle + " --view +z --sort fragments")["wrong_rays"], 0);
+  expect_error("order " + sphere() + " --sort none --json", 2, "none");
+}
+
+// Seen along z the cells of `cycle` hide each other in rings: every pixel has to be sorted by
+// itself.
+TEST_F(CommandLine, CyclesAreDrawnAsTheReferenceDoes) {
+  const std::string cycle = output_.file("cycle.vtu");
+  ASSERT_EQ(run_program("sample cycle -o " + cycle).status, 0);
+  for (const std::string how : {"--projector cpu", "--projector gl --sort fragments"}) {
+    const std::string stats = output_.file("stats.json");
+    const ProgramRun run =
+        run_program("render " + cycle + " --view +z --size 96x96 --verify 1000 " + how + " -o " +
+                    output_.file("cycle.npy") + " --stats " + stats);
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Json json = Json::parse(read_text(stats));
+    EXPECT_EQ(json["sort"]["method"], "fragments");
+    EXPECT_LT(json["verified"]["max_error"].get<double>(), 1e-5) << how;
+  }
+}
+
+TEST_F(CommandLine, BareValuesAreAVolumeOfTheGivenSize) {
+  const std::string raw = output_.file("values.bin");
+  std::string bytes;
+  for (int i = 0; i < 3 * 4 * 5; ++i) bytes.push_back(static_cast<char>(i));
+  std::ofstream(raw, std::ios::binary) << bytes;
+  const ProgramRun run = run_program("info " + raw + " --raw 3x4x5:uint8 --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["points"], 60);
+  EXPECT_EQ(json["fields"][0]["max"], 59);
+  EXPECT_EQ(json["bounds"], Json({0, 2, 0, 3, 0, 4}));
+  expect_error("info " + raw + " --raw 3x4x6:uint8", 1, "values.bin");
 }
 
 TEST_F(CommandLine, ErrorsSayWhichFileAndLeaveNothing) {
