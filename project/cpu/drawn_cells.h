@@ -4,30 +4,13 @@
 #include <vector>
 
 #include "project/scene.h"
+#include "project/value_scale.h"
 
 namespace tetraglass::project::cpu {
 
-/// Takes a field's range to [-1, 1], where floats are finest. Monotonic: equal values stay equal
-/// and greater ones at least as great.
-class ValueScale {
- public:
-  explicit ValueScale(const mesh::ScalarField& field);
-
-  /// Finite for every finite value, whatever its distance from the range.
-  [[nodiscard]] float scaled(double value) const;
-
-  /// The inverse.
-  [[nodiscard]] double value(double scaled) const { return middle_ + half_range_ * scaled; }
-
- private:
-  double middle_;
-  double half_range_;  // > 0
-};
-
 /// The cells of a scene that can show anything, as the kernels read them; what no view changes.
 struct DrawnCells {
-  /// Takes the drawable cells that show something: in mode iso those that a surface crosses; in
-  /// full, emission and absorption those with a value where the extinction is not 0; else all.
+  /// Takes those of `shown_cells`.
   explicit DrawnCells(const Scene& scene);
 
   [[nodiscard]] std::size_t size() const { return vertices.size(); }

@@ -11,6 +11,7 @@
 #include "project/gl/functions.inl"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/shown_cells.h"
 
 namespace tetraglass::project::gl {
 namespace {
@@ -89,7 +90,7 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       most_fragments_(most_fragments),
       normalization_(scene),
-      drawn_(drawn_cells(scene, normalization_)),
+      drawn_(shown_cells(scene, normalization_.values)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       counter_(context) {
   make_tables(stats);

@@ -7,7 +7,6 @@
 
 #include "project/camera.h"
 #include "project/gl/cell_layout.h"
-#include "project/gl/drawn_cells.h"
 #include "project/gl/fragment_lists.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/mesh_buffers.h"

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "project/scene.h"
+#include "project/value_scale.h"
 
 namespace tetraglass::project::gl {
 
@@ -11,9 +12,8 @@ namespace tetraglass::project::gl {
 /// values stay equal and greater ones stay at least as great.
 struct Normalization {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 1;      ///< half the diagonal of the bounds, in world units
-  double middle = 0;      ///< of the field's range
-  double half_range = 1;  ///< > 0; 1 for a constant field
+  double radius = 1;  ///< half the diagonal of the bounds, in world units
+  ValueScale values;
 
   /// The mesh has a drawable cell.
   explicit Normalization(const Scene& scene);
@@ -22,12 +22,10 @@ struct Normalization {
   [[nodiscard]] Eigen::Vector3f point(const Eigen::Vector3d& world) const;
 
   /// Within [-1, 1] for values of the field; others may lie outside, but are finite.
-  [[nodiscard]] float value(double value) const;
+  [[nodiscard]] float value(double value) const { return values.scaled(value); }
 
   /// The inverse of `value`.
-  [[nodiscard]] double field_value(double normalized) const {
-    return middle + half_range * normalized;
-  }
+  [[nodiscard]] double field_value(double normalized) const { return values.value(normalized); }
 };
 
 }  // namespace tetraglass::project::gl

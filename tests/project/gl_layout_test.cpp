@@ -6,7 +6,6 @@
 
 #include "base/errors.h"
 #include "project/gl/cell_layout.h"
-#include "project/gl/drawn_cells.h"
 #include "project/gl/gl_projector.h"
 #include "tests/support/chord.h"
 #include "tests/support/meshes.h"

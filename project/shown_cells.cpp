@@ -1,13 +1,13 @@
-#include "project/gl/drawn_cells.h"
+#include "project/shown_cells.h"
 
 #include <algorithm>
-#include <functional>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "base/parallel.h"
 
-namespace tetraglass::project::gl {
+namespace tetraglass::project {
 namespace {
+
+constexpr std::size_t kGrain = 4096;  // some 50 us of work
 
 struct Range {
   double low;
@@ -22,14 +22,13 @@ Range range_of(const Scene& scene, std::uint32_t cell) {
   return {low, high};
 }
 
-// Those that `shows(Range)` holds for.
+/// Those drawable cells that `shows(Range)` holds for.
 template <class F>
 std::vector<std::uint32_t> select(const Scene& scene, const F& shows) {
   const std::vector<std::uint32_t>& cells = scene.drawable.cells;
-  std::vector<char> drawn(cells.size());
-  constexpr std::size_t kGrain = 4096;  // some 100 us of work
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), kGrain), [&](const auto& r) {
-    for (std::size_t i = r.begin(); i != r.end(); ++i) {
+  std::vector<std::uint8_t> drawn(cells.size());
+  base::parallel_ranges(cells.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       drawn[i] = shows(range_of(scene, cells[i])) ? 1 : 0;
     }
   });
@@ -40,33 +39,33 @@ std::vector<std::uint32_t> select(const Scene& scene, const F& shows) {
   return result;
 }
 
-std::vector<std::uint32_t> crossed_cells(const Scene& scene, const Normalization& normalization) {
+std::vector<std::uint32_t> crossed_cells(const Scene& scene, const ValueScale& scale) {
   std::vector<float> isovalues;
   for (const preint::Isosurface& surface : scene.isosurfaces) {
-    isovalues.push_back(normalization.value(surface.value));
+    isovalues.push_back(scale.scaled(surface.value));
   }
   std::sort(isovalues.begin(), isovalues.end());
   return select(scene, [&](const Range& range) {
     // Half open: low < isovalue <= high (preint::crosses).
     const auto first =
-        std::upper_bound(isovalues.begin(), isovalues.end(), normalization.value(range.low));
-    return first != isovalues.end() && *first <= normalization.value(range.high);
+        std::upper_bound(isovalues.begin(), isovalues.end(), scale.scaled(range.low));
+    return first != isovalues.end() && *first <= scale.scaled(range.high);
   });
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> drawn_cells(const Scene& scene, const Normalization& normalization) {
+std::vector<std::uint32_t> shown_cells(const Scene& scene, const ValueScale& scale) {
   const preint::TransferFunction& tf = scene.transfer_function;
   switch (scene.mode) {
     case Mode::iso:
-      return crossed_cells(scene, normalization);
+      return crossed_cells(scene, scale);
     case Mode::full:
     case Mode::emission:
     case Mode::absorption: {
       const bool clear = std::any_of(tf.points().begin(), tf.points().end(),
                                      [](const auto& point) { return point.extinction == 0; });
-      if (!clear) return scene.drawable.cells;
+      if (!clear) break;
       return select(scene, [&](const Range& range) {
         return range.low == range.high ? tf.at(range.low).extinction > 0
                                        : tf.max_extinction(range.low, range.high) > 0;
@@ -74,9 +73,9 @@ std::vector<std::uint32_t> drawn_cells(const Scene& scene, const Normalization& 
     }
     case Mode::mip:
     case Mode::thickness:
-      return scene.drawable.cells;
+      break;
   }
-  return {};
+  return scene.drawable.cells;
 }
 
-}  // namespace tetraglass::project::gl
+}  // namespace tetraglass::project
