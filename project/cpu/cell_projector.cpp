@@ -42,7 +42,6 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   picture.opaque = static_cast<float>(1 - plan_.opaque_at);
   picture.cells = &cells_;
   picture.points = &points_;
-  picture.bounds = bins_.bounds();
   picture.projection = &projection;
   picture.medium = medium_ ? &*medium_ : nullptr;
   picture.intervals = intervals_;
@@ -63,7 +62,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
         const int y = static_cast<int>(tile / bins_.tiles_x()) * tile_size;
         Worker& worker = workers.local();
         std::span<const std::uint32_t> cells = bins_.cells(tile);
-        if (blends) cells = worker.order.front_to_back(cells, cells_, points_);
+        if (blends) cells = worker.order.front_to_back(cells, cells_);
         fragments += draw_tile(picture, x, y, cells, worker.buffers).fragments;
       },
       tbb::simple_partitioner());

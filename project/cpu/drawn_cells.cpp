@@ -33,13 +33,12 @@ DrawnCells::DrawnCells(const Scene& scene) : scale(scene.field) {
   numbers = shown_cells(scene, scale);
   const std::vector<double>& values = scene.field.values;
   const bool of_cells = scene.field.location == mesh::Location::cell;
-  vertices.resize(numbers.size());
-  mirrored.resize(numbers.size());
+  cells.resize(numbers.size());
   if (of_cells) cell_values.resize(numbers.size());
   base::parallel_ranges(numbers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      vertices[i] = scene.mesh->cells[numbers[i]];
-      mirrored[i] = sort_vertices(vertices[i]) ? 1 : 0;
+      cells[i].vertices = scene.mesh->cells[numbers[i]];
+      cells[i].mirrored = sort_vertices(cells[i].vertices);
       if (of_cells) cell_values[i] = scale.scaled(values[numbers[i]]);
     }
   });

@@ -8,23 +8,37 @@
 
 namespace tetraglass::project::cpu {
 
-/// The cells of a scene that can show anything, as the kernels read them; what no view changes.
+/// The pixels [first, last] each way that something can touch; none where first > last.
+struct PixelBounds {
+  std::uint16_t first_x = 1;
+  std::uint16_t first_y = 1;
+  std::uint16_t last_x = 0;
+  std::uint16_t last_y = 0;
+
+  [[nodiscard]] bool empty() const { return first_x > last_x; }
+};
+
+/// A cell as tiles read it, in any order: half a line of the cache.
+struct alignas(32) DrawnCell {
+  /// Point indices, ascending: both cells at a face then do the same arithmetic with the same
+  /// numbers, and agree on it to the last bit.
+  mesh::Cell vertices;
+  PixelBounds bounds;     ///< in the view in work (see TileBins)
+  float distance = 0;     ///< in this view: the sum of those of its vertices
+  bool mirrored = false;  ///< ascending order turns the cell inside out
+};
+
+/// The cells of a scene that can show anything, as the kernels read them.
 struct DrawnCells {
   /// Takes those of `shown_cells`.
   explicit DrawnCells(const Scene& scene);
 
-  [[nodiscard]] std::size_t size() const { return vertices.size(); }
+  [[nodiscard]] std::size_t size() const { return cells.size(); }
 
   ValueScale scale;
 
-  /// Four point indices, ascending: both cells at a face then do the same arithmetic with the same
-  /// numbers, and agree on it to the last bit.
-  std::vector<mesh::Cell> vertices;
-
+  std::vector<DrawnCell> cells;
   std::vector<std::uint32_t> numbers;  ///< in the mesh
-
-  /// 1 where ascending order turns the cell inside out, else 0.
-  std::vector<std::uint8_t> mirrored;
 
   std::vector<float> point_values;  ///< scaled; empty for a cell field
   std::vector<float> cell_values;   ///< scaled, of each drawn cell; empty for a point field

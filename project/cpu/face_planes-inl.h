@@ -100,7 +100,7 @@ class FaceSetup {
     for (std::size_t k = 0; k < 4; ++k) v[k] = load(picture, origin, cells, k);
     alignas(64) std::array<double, kBatch> sign;
     for (std::size_t i = 0; i < kBatch; ++i) {
-      sign[i] = picture.cells->mirrored[cells[i]] != 0 ? -1.0 : 1.0;
+      sign[i] = picture.cells->cells[cells[i]].mirrored ? -1.0 : 1.0;
       batch.front[i] = 0;
       batch.steep[i] = 0;
     }
@@ -118,7 +118,7 @@ class FaceSetup {
                                 const std::uint32_t* cells, std::size_t k) {
     alignas(64) std::array<std::array<double, kBatch>, 4> component;
     for (std::size_t i = 0; i < kBatch; ++i) {
-      const ViewPoint& p = picture.points->exact[picture.cells->vertices[cells[i]][k]];
+      const ViewPoint& p = picture.points->exact[picture.cells->cells[cells[i]].vertices[k]];
       component[0][i] = p.x;
       component[1][i] = p.y;
       component[2][i] = p.z;

@@ -15,7 +15,7 @@
 
 #include <hwy/highway.h>
 
-#include "project/cpu/tile_raster-inl.h"
+#include "project/cpu/block_sums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::project::cpu::HWY_NAMESPACE {
@@ -32,41 +32,33 @@ struct Fragment {
 /// Color and transmittance of all rays of a tile, front to back.
 class FrontToBack {
  public:
-  /// [red, green, blue, transmittance][pixel].
-  explicit FrontToBack(float* sums) : sums_(sums) {
-    std::fill_n(sums, 3 * kTilePixels, 0.0F);
-    std::fill_n(sums + 3 * kTilePixels, kTilePixels, 1.0F);
-  }
+  /// `sums`: 4 * kTilePixels floats.
+  explicit FrontToBack(float* sums) : sums_(sums, 0) {}
 
   HWY_INLINE void clear(std::size_t block) {
     for (std::size_t c = 0; c < 4; ++c) {
-      hn::Store(set(c == 3 ? 1.0F : 0.0F), FloatTag(), at(c, block));
+      hn::Store(set(c == 3 ? 1.0F : 0.0F), FloatTag(), sums_.at(block, c));
     }
   }
 
   /// Behind what is there. Returns the transmittance.
   HWY_INLINE Float add(std::size_t block, const Fragment& fragment) {
-    const Float before = hn::Load(FloatTag(), at(3, block));
+    const Float before = hn::Load(FloatTag(), sums_.at(block, 3));
     for (std::size_t c = 0; c < 3; ++c) {
-      const Float sum = hn::Load(FloatTag(), at(c, block));
-      hn::Store(hn::MulAdd(before, fragment.channel[1 + c], sum), FloatTag(), at(c, block));
+      sums_.add(block, c, hn::Mul(before, fragment.channel[1 + c]));
     }
     const Float after = hn::NegMulAdd(before, fragment.channel[4], before);
-    hn::Store(after, FloatTag(), at(3, block));
+    hn::Store(after, FloatTag(), sums_.at(block, 3));
     return after;
   }
 
+  /// Of a block that has been cleared.
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    return {sums_[i], sums_[kTilePixels + i], sums_[2 * kTilePixels + i],
-            1 - sums_[3 * kTilePixels + i]};
+    return {sums_.pixel(i, 0), sums_.pixel(i, 1), sums_.pixel(i, 2), 1 - sums_.pixel(i, 3)};
   }
 
  private:
-  [[nodiscard]] HWY_INLINE float* at(std::size_t channel, std::size_t block) const {
-    return sums_ + channel * kTilePixels + block * kLanes;
-  }
-
-  float* sums_;
+  BlockSums<4> sums_;  // red, green, blue, transmittance
 };
 
 /// A delay line per block: the last `window` fragments, in the order of their keys. Each new

@@ -38,7 +38,7 @@ class CellGradient {
       low_ = high_ = constant_;
       return;
     }
-    const mesh::Cell& v = picture_.cells->vertices[cell];
+    const mesh::Cell& v = picture_.cells->cells[cell].vertices;
     Eigen::Matrix3d edges;
     Eigen::Matrix3d rises;
     const auto point = [&](std::size_t k) {
@@ -109,6 +109,7 @@ class IsoShader {
         tile_y_(static_cast<float>(y - picture.projection->center_y)),
         columns_(static_cast<std::size_t>(picture.tile_size / kBlockWidth)) {}
 
+  HWY_INLINE void prefetch(std::uint32_t) const {}
   HWY_INLINE bool begin(std::uint32_t cell) {
     blocks_.begin(cell);
     if (surfaces_.shading != Shading::none) gradient_.begin(cell);

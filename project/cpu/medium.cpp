@@ -80,7 +80,7 @@ std::vector<IntervalRange> cell_intervals(const Medium& medium, const DrawnCells
         result[i] = medium.range(cells.cell_values[i], cells.cell_values[i]);
         continue;
       }
-      const mesh::Cell& v = cells.vertices[i];
+      const mesh::Cell& v = cells.cells[i].vertices;
       const std::vector<float>& values = cells.point_values;
       const auto [low, high] =
           std::minmax({values[v[0]], values[v[1]], values[v[2]], values[v[3]]});

@@ -31,25 +31,20 @@ class OrderedBlocks {
   /// `lines_of_blocks`: the delay line of each block of the tile or kNoLine.
   OrderedBlocks(const Picture& picture, FragmentLines& lines,
                 std::span<const std::uint16_t> lines_of_blocks)
-      : vertices_(picture.cells->vertices.data()),
+      : cells_(picture.cells->cells.data()),
         points_(picture.points->exact.data()),
         projection_(*picture.projection),
         lines_(lines),
         lines_of_blocks_(lines_of_blocks) {}
 
-  HWY_INLINE void begin(std::uint32_t cell) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : vertices_[cell]) nearest = std::min(nearest, points_[v].z);
-    nearest_ = static_cast<float>(
-        projection_.perspective ? 2 * (nearest / projection_.middle_depth - 1) : 2 * nearest);
-  }
+  HWY_INLINE void begin(std::uint32_t cell) { cell_ = cell; }
 
   /// Behind an opaque block only what comes too late matters: it has to be told.
   [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const {
     const std::uint16_t line = lines_of_blocks_[block];
     if (line == kNoLine) return false;
     const FragmentLines::Line& state = lines_.line(line);
-    return !state.opaque || nearest_ < state.opaque_key;
+    return HWY_LIKELY(!state.opaque) || least_key() < state.opaque_key;
   }
 
   HWY_INLINE void insert(std::size_t block, Lanes covered, const Fragment& fragment) {
@@ -57,12 +52,20 @@ class OrderedBlocks {
   }
 
  private:
-  const mesh::Cell* vertices_;
+  /// No fragment of the cell in work has a key below this.
+  [[nodiscard]] float least_key() const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : cells_[cell_].vertices) nearest = std::min(nearest, points_[v].z);
+    return static_cast<float>(projection_.perspective ? 2 * (nearest / projection_.middle_depth - 1)
+                                                      : 2 * nearest);
+  }
+
+  const DrawnCell* cells_;
   const ViewPoint* points_;
   const Projection& projection_;
   FragmentLines& lines_;
   std::span<const std::uint16_t> lines_of_blocks_;
-  float nearest_ = 0;  // no fragment of the cell in work has a key below this
+  std::uint32_t cell_ = 0;  // in work
 };
 
 /// int kappa c exp(-tau) dl: the segments of each cell, shaded, go to the delay line of their

@@ -31,8 +31,8 @@ void extend_to_infinity(double a, double a_z, double b, double b_z, float& low, 
 
 /// The tiles that the bounds touch.
 template <class F>
-void for_tiles(const TileBins::CellBounds& bounds, std::size_t size, const F& visit) {
-  if (bounds.first_x > bounds.last_x) return;
+void for_tiles(const PixelBounds& bounds, std::size_t size, const F& visit) {
+  if (bounds.empty()) return;
   for (std::size_t y = bounds.first_y / size; y <= bounds.last_y / size; ++y) {
     for (std::size_t x = bounds.first_x / size; x <= bounds.last_x / size; ++x) visit(x, y);
   }
@@ -66,18 +66,20 @@ PixelBounds pixel_bounds(const mesh::Cell& cell, const ViewPoints& points, int w
       }
     }
   }
-  return {std::max(0, to_pixel(std::ceil(low_x - kMargin), width)),
-          std::max(0, to_pixel(std::ceil(low_y - kMargin), height)),
-          std::min(width - 1, to_pixel(std::floor(high_x + kMargin), width)),
-          std::min(height - 1, to_pixel(std::floor(high_y + kMargin), height))};
+  const int first_x = std::max(0, to_pixel(std::ceil(low_x - kMargin), width));
+  const int first_y = std::max(0, to_pixel(std::ceil(low_y - kMargin), height));
+  const int last_x = std::min(width - 1, to_pixel(std::floor(high_x + kMargin), width));
+  const int last_y = std::min(height - 1, to_pixel(std::floor(high_y + kMargin), height));
+  if (first_x > last_x || first_y > last_y) return {};
+  return {static_cast<std::uint16_t>(first_x), static_cast<std::uint16_t>(first_y),
+          static_cast<std::uint16_t>(last_x), static_cast<std::uint16_t>(last_y)};
 }
 
-void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int width, int height,
+void TileBins::assign(DrawnCells& cells, const ViewPoints& points, int width, int height,
                       int tile_size) {
   tiles_x_ = static_cast<std::size_t>((width + tile_size - 1) / tile_size);
   tiles_y_ = static_cast<std::size_t>((height + tile_size - 1) / tile_size);
   const auto size = static_cast<std::size_t>(tile_size);
-  bounds_.resize(cells.size());
   // Chunks of a fixed size, not one per thread: the order of the entries must not depend on
   // threads. Not too many either: each has a count per tile.
   constexpr std::size_t kMostCounts = std::size_t{1} << 22;
@@ -89,13 +91,11 @@ void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int wid
     for (std::size_t chunk = first; chunk < end; ++chunk) {
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
-        const PixelBounds bounds = pixel_bounds(cells.vertices[i], points, width, height);
-        bounds_[i] = {};
-        if (bounds.empty()) continue;
-        bounds_[i] = {
-            static_cast<std::uint16_t>(bounds.first_x), static_cast<std::uint16_t>(bounds.first_y),
-            static_cast<std::uint16_t>(bounds.last_x), static_cast<std::uint16_t>(bounds.last_y)};
-        for_tiles(bounds_[i], size,
+        DrawnCell& cell = cells.cells[i];
+        cell.bounds = pixel_bounds(cell.vertices, points, width, height);
+        cell.distance = 0;
+        for (const std::uint32_t v : cell.vertices) cell.distance += points.screen[v].distance;
+        for_tiles(cell.bounds, size,
                   [&](std::size_t x, std::size_t y) { ++counts[y * tiles_x_ + x]; });
       }
     }
@@ -117,7 +117,7 @@ void TileBins::assign(const DrawnCells& cells, const ViewPoints& points, int wid
     for (std::size_t chunk = first; chunk < end; ++chunk) {
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
-        for_tiles(bounds_[i], size, [&](std::size_t x, std::size_t y) {
+        for_tiles(cells.cells[i].bounds, size, [&](std::size_t x, std::size_t y) {
           const std::size_t tile = y * tiles_x_ + x;
           entries_[starts_[tile] + counts[tile]++] = static_cast<std::uint32_t>(i);
         });

@@ -11,16 +11,6 @@
 
 namespace tetraglass::project::cpu {
 
-/// The pixels [first, last] each way that an image can touch; none where first > last.
-struct PixelBounds {
-  int first_x = 0;
-  int first_y = 0;
-  int last_x = -1;
-  int last_y = -1;
-
-  [[nodiscard]] bool empty() const { return first_x > last_x || first_y > last_y; }
-};
-
 /// The pixels whose centres a cell can cover; no bounds ("all of the picture") to the sides where
 /// it passes through the plane of the eye, and none for a cell behind the eye.
 [[nodiscard]] PixelBounds pixel_bounds(const mesh::Cell& cell, const ViewPoints& points, int width,
@@ -29,19 +19,10 @@ struct PixelBounds {
 /// Which cells each square tile of the picture has to draw. Keeps its memory from view to view.
 class TileBins {
  public:
-  /// Bins all cells, in parallel; each tile gets its cells in their order, whatever the number of
-  /// threads. Cells that cover no pixel centre are left out. Cost: linear in cells and entries.
-  void assign(const DrawnCells& cells, const ViewPoints& points, int width, int height,
-              int tile_size);
-
-  /// The pixels of each cell; meaningless for cells that are in no tile.
-  struct CellBounds {
-    std::uint16_t first_x = 1;
-    std::uint16_t first_y = 1;
-    std::uint16_t last_x = 0;
-    std::uint16_t last_y = 0;
-  };
-  [[nodiscard]] std::span<const CellBounds> bounds() const { return bounds_; }
+  /// Bins all cells, in parallel, and sets their bounds and distances; each tile gets its cells in
+  /// their order, whatever the number of threads. Cells that cover no pixel centre are left out.
+  /// Cost: linear in cells and entries.
+  void assign(DrawnCells& cells, const ViewPoints& points, int width, int height, int tile_size);
 
   [[nodiscard]] std::size_t tiles() const { return tiles_x_ * tiles_y_; }
   [[nodiscard]] std::size_t tiles_x() const { return tiles_x_; }
@@ -55,7 +36,6 @@ class TileBins {
  private:
   std::size_t tiles_x_ = 0;
   std::size_t tiles_y_ = 0;
-  std::vector<CellBounds> bounds_;
   std::vector<std::uint32_t> counts_;   // [chunk of cells][tile]
   std::vector<std::size_t> starts_;     // of each tile in entries_, and the end
   std::vector<std::uint32_t> entries_;  // cells

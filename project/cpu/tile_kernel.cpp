@@ -26,7 +26,7 @@ namespace tetraglass::project::cpu {
 struct TileBuffers::Contents {
   static constexpr std::size_t kPixels = std::size_t{kLargestTile} * kLargestTile;
   hwy::AlignedFreeUniquePtr<float[]> accumulators =
-      hwy::AllocateAligned<float>(4 * kPixels);  // [channel][pixel]
+      hwy::AllocateAligned<float>(4 * kPixels);  // see BlockSums
   hwy::AlignedFreeUniquePtr<float[]> stretch = hwy::AllocateAligned<float>(kPixels);
 
   /// Room for so many floats.

@@ -7,7 +7,6 @@
 #include "project/cpu/drawn_cells.h"
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
-#include "project/cpu/tile_bins.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
 
@@ -27,7 +26,6 @@ struct Picture {
   float opaque = 0;
   const DrawnCells* cells = nullptr;
   const ViewPoints* points = nullptr;
-  std::span<const TileBins::CellBounds> bounds;  ///< of each drawn cell
   const Projection* projection = nullptr;
   const Medium* medium = nullptr;            ///< null in modes that have no use for it
   std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium

@@ -23,8 +23,7 @@ void sum_up(std::array<std::uint32_t, kDigits>& counts) {
 }  // namespace
 
 std::span<const std::uint32_t> TileOrder::front_to_back(std::span<const std::uint32_t> cells,
-                                                        const DrawnCells& drawn,
-                                                        const ViewPoints& points) {
+                                                        const DrawnCells& drawn) {
   const std::size_t count = cells.size();
   distances_.resize(count);
   entries_.resize(count);
@@ -33,11 +32,10 @@ std::span<const std::uint32_t> TileOrder::front_to_back(std::span<const std::uin
   float nearest = std::numeric_limits<float>::infinity();
   float farthest = -nearest;
   for (std::size_t i = 0; i < count; ++i) {
-    float sum = 0;
-    for (const std::uint32_t v : drawn.vertices[cells[i]]) sum += points.screen[v].distance;
-    distances_[i] = sum;
-    nearest = std::min(nearest, sum);
-    farthest = std::max(farthest, sum);
+    const float distance = drawn.cells[cells[i]].distance;
+    distances_[i] = distance;
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
   }
   constexpr auto kMost = static_cast<float>(kDigits * kDigits - 1);
   const float scale = farthest > nearest ? kMost / (farthest - nearest) : 0;

@@ -14,10 +14,10 @@
 #include <limits>
 #include <span>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "project/cpu/face_planes-inl.h"
-#include "project/cpu/tile_bins.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::project::cpu::HWY_NAMESPACE {
@@ -102,6 +102,7 @@ inline constexpr auto kFrontToBack = [] {
 /// Feeds a shader with the segments of a tile. A shader has
 ///   static constexpr bool kValues;        whether it reads front and back
 ///   static constexpr bool kKeys;          whether it reads near and far
+///   void prefetch(std::uint32_t cell);    what begin() will read
 ///   bool begin(std::uint32_t cell);       false: the cell shows nothing
 ///   bool wants(std::size_t block);        false: the segments there show nothing
 ///   void add(std::size_t block, Lanes covered, const BlockSegments&);
@@ -128,6 +129,7 @@ class TileRaster {
     for (std::size_t first = 0; first < cells.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, cells.size() - first);
       for (std::size_t i = 0; i < kBatch; ++i) numbers[i] = cells[first + std::min(i, count - 1)];
+      prefetch(cells, first + kBatch);
       FaceSetup<kPerspective, Shader::kValues>::set_up(picture_, origin, numbers.data(), batch_);
       for (std::size_t i = 0; i < count; ++i) draw_cell(numbers[i], i);
     }
@@ -135,6 +137,20 @@ class TileRaster {
   }
 
  private:
+  /// Asks for what the batch after the next and, of its points, the next will read: cells lie
+  /// anywhere in memory.
+  HWY_INLINE void prefetch(std::span<const std::uint32_t> cells, std::size_t next) const {
+    const DrawnCell* drawn = picture_.cells->cells.data();
+    const ViewPoint* points = picture_.points->exact.data();
+    for (std::size_t i = next + kBatch; i < std::min(next + 2 * kBatch, cells.size()); ++i) {
+      hwy::Prefetch(drawn + cells[i]);
+      shader_.prefetch(cells[i]);
+    }
+    for (std::size_t i = next; i < std::min(next + kBatch, cells.size()); ++i) {
+      for (const std::uint32_t v : drawn[cells[i]].vertices) hwy::Prefetch(points + v);
+    }
+  }
+
   /// A plane of one cell, in all lanes.
   struct Plane {
     Float start, dx, dy;
@@ -192,16 +208,16 @@ class TileRaster {
     const unsigned front = batch_.front[i];
     // All faces in front: the eye is on one of them, and the cell behind it.
     if (front == 15) return;
-    const mesh::Cell& vertices = picture_.cells->vertices[cell];
+    const DrawnCell& drawn = picture_.cells->cells[cell];
     if (!shader_.begin(cell)) return;
-    const TileBins::CellBounds& bounds = picture_.bounds[cell];
+    const PixelBounds& bounds = drawn.bounds;
     first_x_ = std::max(bounds.first_x - tile_x_, 0) / kBlockWidth;
     first_y_ = std::max(bounds.first_y - tile_y_, 0) / kBlockHeight;
     last_x_ = std::min(bounds.last_x - tile_x_, tile_size_ - 1) / kBlockWidth;
     last_y_ = std::min(bounds.last_y - tile_y_, tile_size_ - 1) / kBlockHeight;
-    if constexpr (Shader::kValues) set_value_range(vertices);
+    if constexpr (Shader::kValues) set_value_range(drawn.vertices);
     if (kPerspective && front == 0) {
-      draw_around_eye(vertices, i);
+      draw_around_eye(drawn.vertices, i);
       return;
     }
     const std::array<std::uint8_t, 4>& face = kFrontToBack[front];

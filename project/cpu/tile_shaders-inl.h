@@ -14,23 +14,14 @@
 #include <cstdint>
 #include <limits>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "project/cpu/block_sums-inl.h"
 #include "project/cpu/interval_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::project::cpu::HWY_NAMESPACE {
-
-/// Adds to the accumulators of a block.
-HWY_INLINE void add_to(float* sums, std::size_t block, Float amount) {
-  float* sum = sums + block * kLanes;
-  hn::Store(hn::Add(hn::Load(FloatTag(), sum), amount), FloatTag(), sum);
-}
-
-HWY_INLINE void raise_to(float* largest, std::size_t block, Float value) {
-  float* place = largest + block * kLanes;
-  hn::Store(hn::Max(hn::Load(FloatTag(), place), value), FloatTag(), place);
-}
 
 /// The length of the ray inside the mesh (weiler2002 Fig. 7).
 class ThicknessShader {
@@ -39,25 +30,24 @@ class ThicknessShader {
   static constexpr bool kKeys = false;
 
   ThicknessShader(const Picture& picture, float* sums)
-      : unit_(static_cast<float>(picture.projection->radius)), sums_(sums) {
-    std::fill_n(sums, kTilePixels, 0.0F);
-  }
+      : unit_(static_cast<float>(picture.projection->radius)), sums_(sums, 0) {}
 
+  HWY_INLINE void prefetch(std::uint32_t) const {}
   HWY_INLINE bool begin(std::uint32_t) { return true; }
   [[nodiscard]] HWY_INLINE bool wants(std::size_t) const { return true; }
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& s) {
-    add_to(sums_, block, hn::IfThenElseZero(covered, s.length));
+    sums_.add(block, 0, hn::IfThenElseZero(covered, s.length));
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    const float length = sums_[i] * unit_;
+    const float length = sums_.pixel(i, 0) * unit_;
     return {length, length, length, length > 0 ? 1.0F : 0.0F};
   }
 
  private:
   float unit_;
-  float* sums_;
+  BlockSums<1> sums_;
 };
 
 /// What shaders of a medium have in common: the cell in work, and its intervals.
@@ -72,6 +62,7 @@ class MediumShader {
         ranges_(picture.intervals.data()),
         of_cells_(!cells_.cell_values.empty()) {}
 
+  HWY_INLINE void prefetch(std::uint32_t cell) const { hwy::Prefetch(ranges_ + cell); }
   HWY_INLINE bool begin(std::uint32_t cell) {
     cell_ = cell;
     range_ = ranges_[cell];
@@ -97,9 +88,7 @@ class MediumShader {
 /// int kappa c dl.
 class EmissionShader : public MediumShader {
  public:
-  EmissionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums) {
-    std::fill_n(sums, 3 * kTilePixels, 0.0F);
-  }
+  EmissionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums, 0) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -107,11 +96,11 @@ class EmissionShader : public MediumShader {
     walk_intervals(medium_, range_, false, s, hn::IfThenElseZero(covered, s.length),
                    [&](const MediumInterval& interval, const IntervalPart& part)
                        HWY_ATTR { add_part(interval, part, sum); });
-    for (std::size_t c = 0; c < 3; ++c) add_to(sums_ + c * kTilePixels, block, sum[c]);
+    for (std::size_t c = 0; c < 3; ++c) sums_.add(block, c, sum[c]);
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    return {sums_[i], sums_[kTilePixels + i], sums_[2 * kTilePixels + i], 0};
+    return {sums_.pixel(i, 0), sums_.pixel(i, 1), sums_.pixel(i, 2), 0};
   }
 
  private:
@@ -130,15 +119,13 @@ class EmissionShader : public MediumShader {
     }
   }
 
-  float* sums_;
+  BlockSums<3> sums_;
 };
 
 /// int kappa dl.
 class AbsorptionShader : public MediumShader {
  public:
-  AbsorptionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums) {
-    std::fill_n(sums, kTilePixels, 0.0F);
-  }
+  AbsorptionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums, 0) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -148,39 +135,38 @@ class AbsorptionShader : public MediumShader {
                      const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
                      depth = hn::MulAdd(part.length, extinction(interval, middle), depth);
                    });
-    add_to(sums_, block, depth);
+    sums_.add(block, 0, depth);
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    return {0, 0, 0, -std::expm1(-sums_[i])};
+    return {0, 0, 0, -std::expm1(-sums_.pixel(i, 0))};
   }
 
  private:
-  float* sums_;
+  BlockSums<1> sums_;
 };
 
 /// The color of the largest value.
 class FieldMaximumShader : public MediumShader {
  public:
   FieldMaximumShader(const Picture& picture, float* largest)
-      : MediumShader(picture), largest_(largest) {
-    std::fill_n(largest, kTilePixels, kNone);
-  }
+      : MediumShader(picture), largest_(largest, kNone) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
-    raise_to(largest_, block, hn::IfThenElse(covered, hn::Max(s.front, s.back), set(kNone)));
+    largest_.raise(block, 0, hn::IfThenElse(covered, hn::Max(s.front, s.back), set(kNone)));
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    if (largest_[i] == kNone) return {};
-    const std::array<float, 3> rgb = medium_.color(largest_[i]);
+    const float largest = largest_.pixel(i, 0);
+    if (largest == kNone) return {};
+    const std::array<float, 3> rgb = medium_.color(largest);
     return {rgb[0], rgb[1], rgb[2], 1};
   }
 
  private:
   static constexpr float kNone = -16;  // below every scaled value
-  float* largest_;
+  BlockSums<1> largest_;
 };
 
 /// The largest color of each channel (weiler2002 section 5.1): at one end of a segment's part in an
@@ -188,9 +174,7 @@ class FieldMaximumShader : public MediumShader {
 class ColorMaximumShader : public MediumShader {
  public:
   ColorMaximumShader(const Picture& picture, float* largest)
-      : MediumShader(picture), largest_(largest) {
-    std::fill_n(largest, 3 * kTilePixels, kNone);
-  }
+      : MediumShader(picture), largest_(largest, kNone) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -207,21 +191,19 @@ class ColorMaximumShader : public MediumShader {
         most[c] = hn::Max(most[c], hn::IfThenElse(meets, channel, set(kNone)));
       }
     }
-    for (std::size_t c = 0; c < 3; ++c) raise_to(largest_ + c * kTilePixels, block, most[c]);
+    for (std::size_t c = 0; c < 3; ++c) largest_.raise(block, c, most[c]);
   }
 
   [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    if (largest_[i] == kNone) return {};
+    if (largest_.pixel(i, 0) == kNone) return {};
     // As in the reference, whose maximum starts from black.
-    const auto channel = [&](std::size_t c) {
-      return std::max(0.0F, largest_[c * kTilePixels + i]);
-    };
+    const auto channel = [&](std::size_t c) { return std::max(0.0F, largest_.pixel(i, c)); };
     return {channel(0), channel(1), channel(2), 1};
   }
 
  private:
   static constexpr float kNone = std::numeric_limits<float>::lowest();
-  float* largest_;
+  BlockSums<3> largest_;
 };
 
 }  // namespace tetraglass::project::cpu::HWY_NAMESPACE

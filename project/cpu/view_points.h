@@ -27,7 +27,7 @@ struct Projection {
 
 /// A vertex in homogeneous pixels, relative to the camera's axis: in perspective (X z, Y z, z), in
 /// parallel views (X, Y, z). Y points down, z away: what was positively oriented stays so.
-struct ViewPoint {
+struct alignas(32) ViewPoint {
   double x = 0;
   double y = 0;
   double z = 0;
