@@ -17,6 +17,7 @@
 #include "mesh/file_name.h"
 #include "mesh/linearize.h"
 #include "mesh/read_abaqus.h"
+#include "mesh/read_cgns.h"
 #include "mesh/read_collection.h"
 #include "mesh/read_ensight.h"
 #include "mesh/read_exodus.h"
@@ -83,6 +84,10 @@ const std::vector<Format>& formats() {
       {{".pvd", ".vtm"},
        [](const std::string& file, const ImportOptions& options) {
          return read_collection(file, options.time);
+       }},
+      {{".cgns", ".cgn"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_cgns(file, options.time);
        }},
       {{".case", ".encas"},
        [](const std::string& file, const ImportOptions& options) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 
@@ -68,6 +69,9 @@ bool write_all(int output, const std::string& text) {
   const auto memory =
       static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
   set_limit(RLIMIT_DATA, memory, memory);
+  // Libraries that end the process by exit() must not run the destructors of the original, which
+  // may remove its files: the handler registered last is called first.
+  std::atexit([] { ::_exit(kFailed); });
   int status = kFailed;
   try {
     status = write_all(output, work()) ? 0 : kFailed;

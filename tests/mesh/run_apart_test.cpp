@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/temporary_folder.h"
+
 namespace tetraglass::mesh {
 namespace {
 
@@ -23,6 +25,13 @@ TEST(RunApart, OutlivesWorkThatEndsItsProcess) {
   EXPECT_EQ(run_apart([]() -> std::string { throw std::runtime_error("no"); }, 10, "test").ending,
             "failed");
   EXPECT_EQ(run_apart([]() -> std::string { std::_Exit(3); }, 10, "test").ending, "failed");
+}
+
+TEST(RunApart, WorkThatCallsExitRunsNoDestructorsOfTheOriginal) {
+  static const tests::TemporaryFolder kFolder;  // removed by its destructor
+  EXPECT_EQ(run_apart([]() -> std::string { std::exit(3); }, 10, "test").ending, "failed");
+  tests::write_text(kFolder.file("a"), "b");
+  EXPECT_EQ(tests::read_text(kFolder.file("a")), "b");
 }
 
 TEST(RunApart, SaysThatMemoryRanOut) {
