@@ -23,6 +23,7 @@
 #include "mesh/read_exodus.h"
 #include "mesh/read_gambit.h"
 #include "mesh/read_gmsh.h"
+#include "mesh/read_med.h"
 #include "mesh/read_medit.h"
 #include "mesh/read_msh.h"
 #include "mesh/read_netgen.h"
@@ -89,6 +90,10 @@ const std::vector<Format>& formats() {
        [](const std::string& file, const ImportOptions& options) {
          return read_cgns(file, options.time);
        }},
+      {{".med", ".rmed", ".mmed"},
+       [](const std::string& file, const ImportOptions& options) {
+         return read_med(file, options.time);
+       }},
       {{".case", ".encas"},
        [](const std::string& file, const ImportOptions& options) {
          return read_ensight(file, options.time);
@@ -122,12 +127,6 @@ const Format& find_format(const std::string& file) {
     throw base::ReadError(file,
                           "holds bare values; tell their layout by --raw WIDTHxHEIGHTxDEPTH:TYPE, "
                           "such as 64x64x64:uint8");
-  }
-  if (extension == ".med" || extension == ".cgns") {
-    throw base::ReadError(
-        file, fmt::format("the format {} is not read; write the mesh as .vtu, .e or .msh "
-                          "with the program it comes from",
-                          extension == ".med" ? "MED" : "CGNS"));
   }
   const std::vector<std::string> known = readable_extensions();
   const std::vector<std::string> near =
