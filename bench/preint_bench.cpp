@@ -53,14 +53,14 @@ void segment(benchmark::State& state, double front, double back, double length) 
   state.SetItemsProcessed(state.iterations());
 }
 
-/// Linear pieces in float vectors; the argument is the bound on the optical depth, in hundredths.
+/// Linear pieces in float vectors; the argument is their optical depth, in hundredths.
 void lights_of_pieces(benchmark::State& state) {
   constexpr std::size_t kPieces = 4096;
-  const float deepest = static_cast<float>(state.range(0)) / 100;
-  const std::vector<float> k(kPieces, deepest);
+  const float depth = static_cast<float>(state.range(0)) / 100;
+  const std::vector<float> k(kPieces, depth);
   std::vector<float> front(kPieces), back(kPieces), transmittance(kPieces);
   for (auto _ : state) {
-    piece_lights({k, k, front, back, transmittance}, deepest);
+    piece_lights({k, k, front, back, transmittance});
     benchmark::DoNotOptimize(front.data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kPieces));
@@ -69,7 +69,7 @@ void lights_of_pieces(benchmark::State& state) {
 /// Segments in float, split at 17 control points: neighbours have similar values, each crosses as
 /// many control points as the argument says.
 void lights_of_segments(benchmark::State& state) {
-  constexpr std::size_t kSegments = 4096;
+  constexpr std::size_t kSegments = 1024;
   const FloatTransferFunction tf(preset("viridis", 0, 1, 1));
   const auto crossed = static_cast<float>(state.range(0));
   const auto& intervals = tf.intervals();

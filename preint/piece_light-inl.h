@@ -21,55 +21,54 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::preint::HWY_NAMESPACE {
 
-/// How much of the colors at both ends of a piece reaches its front, and what passes through it:
-/// light = front color_front + back color_back. front + back = 1 - transmittance.
+/// A linear piece: its optical depth D = (k_front + k_back) / 2 and how much its extinction rises,
+/// h = (k_back - k_front) / 2, both times the length of the piece; |h| <= D.
 template <class V>
-struct PieceLight {
-  V front;
-  V back;
-  V transmittance;
-};
-
-/// What the series of a piece (piece_series.h) takes.
-template <class V>
-struct SeriesArguments {
-  V depth;       ///< D, the optical depth
-  V half_depth;  ///< D / 2
-  V square;      ///< D^2
-  V rise;        ///< h
+struct OpticalPiece {
+  V depth;
+  V rise;
 };
 
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE SeriesArguments<V> series_arguments(D d, V k_front, V k_back) {
+HWY_INLINE OpticalPiece<V> optical_piece(D d, V k_front, V k_back) {
   namespace hn = hwy::HWY_NAMESPACE;
   const V half = hn::Set(d, 0.5F);
-  const V depth = hn::Mul(half, hn::Add(k_front, k_back));
-  return {depth, hn::Mul(half, depth), hn::Mul(depth, depth),
-          hn::Mul(half, hn::Sub(k_back, k_front))};
+  return {hn::Mul(half, hn::Add(k_front, k_back)), hn::Mul(half, hn::Sub(k_back, k_front))};
 }
 
-/// F - 1 up to the total degree.
+/// What reaches the front of a piece of a color that is linear on it: opacity times its mean over
+/// both ends plus skew times half its difference, back minus front. So (opacity - skew) / 2 of the
+/// color at the front and (opacity + skew) / 2 of that at the back.
+template <class V>
+struct PieceLight {
+  V opacity;
+  V skew;
+  V transmittance;  ///< 1 - opacity
+};
+
+/// 2 (F - 1) up to the total degree.
 template <std::size_t kDegree, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE V piece_series(D d, const SeriesArguments<V>& x) {
+HWY_INLINE V piece_series(D d, const OpticalPiece<V>& piece) {
   namespace hn = hwy::HWY_NAMESPACE;
   static constexpr auto kC = piece_coefficients<kDegree>();
+  const V square = hn::Mul(piece.depth, piece.depth);
   // Of h^k, as a polynomial in D^2 from its term `lowest` on.
   const auto factor = [&](std::size_t k, std::size_t lowest) HWY_ATTR {
     std::size_t j = (kDegree - k) / 2;
-    V sum = hn::Set(d, kC[k][j]);
-    while (j-- > lowest) sum = hn::MulAdd(sum, x.square, hn::Set(d, kC[k][j]));
+    V sum = hn::Set(d, 2 * kC[k][j]);
+    while (j-- > lowest) sum = hn::MulAdd(sum, square, hn::Set(d, 2 * kC[k][j]));
     return sum;
   };
   V sum = factor(kDegree, 0);
-  for (std::size_t k = kDegree; k-- > 1;) sum = hn::MulAdd(sum, x.rise, factor(k, 0));
-  return hn::MulAdd(sum, x.rise, hn::Mul(x.square, factor(0, 1)));
+  for (std::size_t k = kDegree; k-- > 1;) sum = hn::MulAdd(sum, piece.rise, factor(k, 0));
+  return hn::MulAdd(sum, piece.rise, hn::Mul(square, factor(0, 1)));
 }
 
-/// 1 - exp(-y) as a polynomial.
-template <int kDegree, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+/// 1 - exp(-y / kDivisor), kDivisor a power of 2, as a polynomial.
+template <int kDegree, int kDivisor, class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V polynomial_absorbed(D d, V y) {
   namespace hn = hwy::HWY_NAMESPACE;
-  static constexpr auto kC = absorbed_coefficients<kDegree>();
+  static constexpr auto kC = absorbed_coefficients<kDegree, kDivisor>();
   V sum = hn::Set(d, kC[kDegree]);
   for (std::size_t m = kDegree; m-- > 1;) sum = hn::MulAdd(sum, y, hn::Set(d, kC[m]));
   return hn::Mul(sum, y);
@@ -89,56 +88,54 @@ HWY_INLINE V absorbed(D d, V y) {
   const V r = hn::NegMulAdd(whole, hn::Set(d, -2.12194440e-4F),
                             hn::NegMulAdd(whole, hn::Set(d, 0.693359375F), y));
   const V power = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(integers, 127), n)));  // 2^-n
-  return hn::MulAdd(power, polynomial_absorbed<7>(d, r), hn::Sub(one, power));
+  return hn::MulAdd(power, polynomial_absorbed<7, 1>(d, r), hn::Sub(one, power));
 }
 
-/// Light from 1 - exp(-depth / 2) and F - 1 (see piece_series.h), each with its own relative
+/// Light from 1 - exp(-D / 2) and 2 (F - 1) (see piece_series.h), each with its own relative
 /// accuracy, in a form that keeps it.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE PieceLight<V> light_of_series(D d, V half_absorbed, V rest) {
   namespace hn = hwy::HWY_NAMESPACE;
   const V e = hn::Sub(hn::Set(d, 1.0F), half_absorbed);
-  return {hn::NegMulAdd(rest, e, half_absorbed), hn::Mul(e, hn::Add(rest, half_absorbed)),
-          hn::Mul(e, e)};
+  return {hn::MulAdd(half_absorbed, e, half_absorbed),
+          hn::NegMulAdd(half_absorbed, half_absorbed, hn::Mul(e, rest)), hn::Mul(e, e)};
 }
 
-/// Pieces of optical extinction (extinction times length, >= 0) `k_front` and `k_back`, linear in
-/// between, of an optical depth (k_front + k_back) / 2 of at most kThinPiece: no exponential, and
-/// nothing gives nothing (0, 0 and a transmittance of exactly 1). Error of each result: at most
-/// 1e-6, of the shares of light also relative to the opacity.
+/// The light of pieces of a depth of at most PieceBounds::thin: no exponential, and nothing gives
+/// nothing (0, 0 and a transmittance of exactly 1).
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE PieceLight<V> piece_light_thin(D d, V k_front, V k_back) {
-  const auto x = series_arguments(d, k_front, k_back);
-  return light_of_series(d, polynomial_absorbed<5>(d, x.half_depth), piece_series<4>(d, x));
+HWY_INLINE PieceLight<V> piece_light_thin(D d, const OpticalPiece<V>& piece) {
+  return light_of_series(d, polynomial_absorbed<5, 2>(d, piece.depth), piece_series<4>(d, piece));
 }
 
-/// The same to a depth of kModeratePiece.
+/// The same to PieceBounds::moderate.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE PieceLight<V> piece_light_moderate(D d, V k_front, V k_back) {
-  const auto x = series_arguments(d, k_front, k_back);
-  return light_of_series(d, polynomial_absorbed<7>(d, x.half_depth), piece_series<6>(d, x));
+HWY_INLINE PieceLight<V> piece_light_moderate(D d, const OpticalPiece<V>& piece) {
+  return light_of_series(d, polynomial_absorbed<7, 2>(d, piece.depth), piece_series<6>(d, piece));
 }
 
-/// The same to a depth of kDensePiece; one exponential.
+/// The same to PieceBounds::dense; one exponential.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE PieceLight<V> piece_light_dense(D d, V k_front, V k_back) {
-  const auto x = series_arguments(d, k_front, k_back);
-  return light_of_series(d, absorbed(d, x.half_depth), piece_series<12>(d, x));
+HWY_INLINE PieceLight<V> piece_light_dense(D d, const OpticalPiece<V>& piece) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const V half_depth = hn::Mul(hn::Set(d, 0.5F), piece.depth);
+  return light_of_series(d, absorbed(d, half_depth), piece_series<12>(d, piece));
 }
 
 /// The same for any depth (extinctions to 1e15): Gauss-Legendre with ten nodes on the half where
 /// the front part of the depth of at most 17 lies, and on the other; behind lies less than 5e-8.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE PieceLight<V> piece_light_deep(D d, V k_front, V k_back) {
+HWY_INLINE PieceLight<V> piece_light_deep(D d, const OpticalPiece<V>& piece) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const V half = hn::Set(d, 0.5F);
   const V one = hn::Set(d, 1.0F);
-  const V slope = hn::Sub(k_back, k_front);
-  const V half_slope = hn::Mul(half, slope);
-  const V depth = hn::Mul(half, hn::Add(k_front, k_back));
+  const V most = hn::Set(d, 1e15F);
+  const V depth = hn::Min(piece.depth, most);
+  const V half_slope = hn::Min(hn::Max(piece.rise, hn::Neg(depth)), depth);
+  const V slope = hn::Add(half_slope, half_slope);
+  const V k_front = hn::Sub(depth, half_slope);
   const V visible = hn::Min(depth, hn::Set(d, 17.0F));
   V from = hn::Zero(d);
-  PieceLight<V> sum{from, from, hn::Sub(one, absorbed(d, depth))};
+  V front_share = from, back_share = from;
   for (const float share : {0.5F, 1.0F}) {
     // Where the optical depth is u: x = 2 u / (k_front + sqrt(k_front^2 + 2 slope u)), see
     // segment_integral.cpp.
@@ -156,26 +153,40 @@ HWY_INLINE PieceLight<V> piece_light_deep(D d, V k_front, V k_back) {
       const V k = hn::Mul(hn::MulAdd(slope, x, k_front),
                           hn::Mul(width, hn::Set(d, static_cast<float>(node.weight))));
       const V light = hn::NegMulAdd(k, absorbed(d, tau), k);
-      sum.back = hn::MulAdd(x, light, sum.back);
-      sum.front = hn::MulAdd(hn::Sub(one, x), light, sum.front);
+      back_share = hn::MulAdd(x, light, back_share);
+      front_share = hn::MulAdd(hn::Sub(one, x), light, front_share);
     }
     from = to;
   }
-  return sum;
+  const V opacity = absorbed(d, depth);
+  return {hn::Add(front_share, back_share), hn::Sub(back_share, front_share),
+          hn::Sub(one, opacity)};
 }
 
-/// The same for any depth; deep pieces cost only where a vector has one.
+/// Out of the way of the others, which take nearly all pieces.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
-HWY_INLINE PieceLight<V> piece_light(D d, V k_front, V k_back) {
+HWY_NOINLINE PieceLight<V> piece_light_any(D d, OpticalPiece<V> piece, float dense_bound) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const auto x = series_arguments(d, k_front, k_back);
-  const auto dense = hn::Le(x.depth, hn::Set(d, kDensePiece));
-  PieceLight<V> light = light_of_series(d, absorbed(d, x.half_depth), piece_series<12>(d, x));
-  if (HWY_LIKELY(hn::AllTrue(d, dense))) return light;
-  const PieceLight<V> deep = piece_light_deep(d, k_front, k_back);
-  return {hn::IfThenElse(dense, light.front, deep.front),
-          hn::IfThenElse(dense, light.back, deep.back),
+  const auto dense = hn::Le(piece.depth, hn::Set(d, dense_bound));
+  const PieceLight<V> deep = piece_light_deep(d, piece);
+  const PieceLight<V> light = piece_light_dense(d, piece);
+  return {hn::IfThenElse(dense, light.opacity, deep.opacity),
+          hn::IfThenElse(dense, light.skew, deep.skew),
           hn::IfThenElse(dense, light.transmittance, deep.transmittance)};
+}
+
+/// The light of pieces of any depth, by the cheapest form that serves all lanes within the bounds.
+/// Error of the light: their tolerance times the opacity.
+template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
+HWY_INLINE PieceLight<V> piece_light(D d, const OpticalPiece<V>& piece, const PieceBounds& bounds) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const auto at_most = [&](float limit) HWY_ATTR {
+    return hn::AllTrue(d, hn::Le(piece.depth, hn::Set(d, limit)));
+  };
+  if (HWY_LIKELY(at_most(bounds.thin))) return piece_light_thin(d, piece);
+  if (at_most(bounds.moderate)) return piece_light_moderate(d, piece);
+  if (at_most(bounds.dense)) return piece_light_dense(d, piece);
+  return piece_light_any(d, piece, bounds.dense);
 }
 
 }  // namespace tetraglass::preint::HWY_NAMESPACE

@@ -12,16 +12,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetraglass::preint::HWY_NAMESPACE {
 
-/// `light(d, k_front, k_back)` of all pieces, the last ones one by one.
-template <class Light>
-HWY_INLINE void for_all_pieces(const PieceBatch& batch, const Light& light) {
+/// All pieces by one form, the last ones one by one.
+template <class Form>
+HWY_INLINE void for_all_pieces(const PieceBatch& batch, const Form& light_of) {
   namespace hn = hwy::HWY_NAMESPACE;
   const auto pieces = [&](auto d, std::size_t begin, std::size_t end) HWY_ATTR {
+    const auto half = hn::Set(d, 0.5F);
     for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
-      const auto l = light(d, hn::LoadU(d, &batch.k_front[i]), hn::LoadU(d, &batch.k_back[i]));
-      hn::StoreU(l.front, d, &batch.front[i]);
-      hn::StoreU(l.back, d, &batch.back[i]);
-      hn::StoreU(l.transmittance, d, &batch.transmittance[i]);
+      const auto light = light_of(
+          d, optical_piece(d, hn::LoadU(d, &batch.k_front[i]), hn::LoadU(d, &batch.k_back[i])));
+      hn::StoreU(hn::Mul(half, hn::Sub(light.opacity, light.skew)), d, &batch.front[i]);
+      hn::StoreU(hn::Mul(half, hn::Add(light.opacity, light.skew)), d, &batch.back[i]);
+      hn::StoreU(light.transmittance, d, &batch.transmittance[i]);
     }
   };
   const hn::ScalableTag<float> d;
@@ -31,21 +33,8 @@ HWY_INLINE void for_all_pieces(const PieceBatch& batch, const Light& light) {
   pieces(hn::CappedTag<float, 1>(), whole, count);
 }
 
-void lights_thin(const PieceBatch& batch) {
-  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
-                            HWY_ATTR { return piece_light_thin(d, k_front, k_back); });
-}
-void lights_moderate(const PieceBatch& batch) {
-  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
-                            HWY_ATTR { return piece_light_moderate(d, k_front, k_back); });
-}
-void lights_dense(const PieceBatch& batch) {
-  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
-                            HWY_ATTR { return piece_light_dense(d, k_front, k_back); });
-}
-void lights_any(const PieceBatch& batch) {
-  for_all_pieces(batch, [](auto d, auto k_front, auto k_back)
-                            HWY_ATTR { return piece_light(d, k_front, k_back); });
+void lights(const PieceBatch& batch, const PieceBounds& bounds) {
+  for_all_pieces(batch, [&](auto d, auto piece) HWY_ATTR { return piece_light(d, piece, bounds); });
 }
 
 }  // namespace tetraglass::preint::HWY_NAMESPACE
@@ -54,21 +43,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tetraglass::preint {
 
-HWY_EXPORT(lights_thin);
-HWY_EXPORT(lights_moderate);
-HWY_EXPORT(lights_dense);
-HWY_EXPORT(lights_any);
+HWY_EXPORT(lights);
 
-void piece_lights(const PieceBatch& batch, float deepest) {
-  if (deepest <= kThinPiece) {
-    HWY_DYNAMIC_DISPATCH(lights_thin)(batch);
-  } else if (deepest <= kModeratePiece) {
-    HWY_DYNAMIC_DISPATCH(lights_moderate)(batch);
-  } else if (deepest <= kDensePiece) {
-    HWY_DYNAMIC_DISPATCH(lights_dense)(batch);
-  } else {
-    HWY_DYNAMIC_DISPATCH(lights_any)(batch);
-  }
+void piece_lights(const PieceBatch& batch, double tolerance) {
+  HWY_DYNAMIC_DISPATCH(lights)(batch, piece_bounds(tolerance));
 }
 
 }  // namespace tetraglass::preint

@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "preint/piece_series.h"
+
 namespace tetraglass::preint {
 
 /// Linear pieces of segments in float, many at once (structure of arrays, all of one length).
@@ -13,12 +15,10 @@ struct PieceBatch {
   std::span<float> transmittance;  ///< result: exp(-optical depth)
 };
 
-/// The light of all pieces, in the widest vectors of the machine, by the form that is the cheapest
-/// for pieces of at most `deepest` optical depth (any bound; pieces that exceed it lose accuracy:
-/// give infinity when in doubt). Absolute error per piece at most 1e-6, for any extinction from 0
-/// to 1e15; thin pieces are accurate to 1e-6 of their light, too. To a depth of 0.25 a polynomial
-/// of degree 4, to 0.99 of degree 6, to 4.8 of degree 12 and an exponential, beyond that 20 more
-/// exponentials. The same functions for use inside vector code: piece_light-inl.h.
-void piece_lights(const PieceBatch& batch, float deepest);
+/// The light of all pieces, in the widest vectors of the machine, each vector by the cheapest form
+/// for its deepest piece (PieceBounds in piece_series.h; the same for use inside vector code:
+/// piece_light-inl.h). For any extinction from 0 on. Error of each result: at most the tolerance
+/// (1e-6 or more), of the shares of light also relative to the opacity of the piece.
+void piece_lights(const PieceBatch& batch, double tolerance = kFinestPiece);
 
 }  // namespace tetraglass::preint

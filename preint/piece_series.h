@@ -5,12 +5,31 @@
 
 namespace tetraglass::preint {
 
-/// How deep a piece each series may cover for an error of 1e-6 with the rounding of floats: what it
-/// leaves out is at most 3e-7 of the opacity there (degree 4, 6 and 12; largest over h, against the
-/// series of degree 40, rounded down).
-inline constexpr float kThinPiece = 0.25F;
-inline constexpr float kModeratePiece = 0.99F;
-inline constexpr float kDensePiece = 4.8F;
+/// How deep a piece each series may cover for a tolerance: what it leaves out is at most that part
+/// of the opacity of the piece (degree 4, 6 and 12 of F - 1, and 5 and 7 of 1 - exp(-D / 2);
+/// largest over h, against the series of degree 40; rounded down, and less the rounding of floats,
+/// 7e-7). What lies behind a piece is dimmed by it, so the errors of any number of pieces along a
+/// ray add up to at most the tolerance times the opacity of all, and their rounding.
+struct PieceBounds {
+  float tolerance;
+  float thin;      ///< degree 4
+  float moderate;  ///< degree 6
+  float dense;     ///< degree 12 and an exponential
+};
+inline constexpr std::array<PieceBounds, 4> kPieceBounds = {{{1e-6F, 0.26F, 0.92F, 4.9F},
+                                                             {1e-5F, 0.59F, 1.5F, 6.8F},
+                                                             {1e-4F, 0.99F, 2.1F, 8.7F},
+                                                             {1e-3F, 1.6F, 2.8F, 11.4F}}};
+
+/// The smallest error that can be asked of floats.
+inline constexpr double kFinestPiece = 1e-6;
+
+/// The cheapest that hold the tolerance; the finest ones if none does.
+constexpr const PieceBounds& piece_bounds(double tolerance) {
+  std::size_t i = 0;
+  while (i + 1 < kPieceBounds.size() && kPieceBounds[i + 1].tolerance <= tolerance) ++i;
+  return kPieceBounds[i];
+}
 
 /// The mean transmittance from the front of a piece (Moreland and Angel's Psi), with
 /// D = (k_front + k_back) / 2 its optical depth and h = (k_back - k_front) / 2, |h| <= D, is
@@ -40,13 +59,13 @@ constexpr auto piece_coefficients() {
   return result;
 }
 
-/// 1 - exp(-y) = sum_m result[m] y^m, without what is left out after y^Degree.
-template <std::size_t Degree>
+/// 1 - exp(-y / Divisor) = sum_m result[m] y^m, without what is left out after y^Degree.
+template <std::size_t Degree, int Divisor>
 constexpr std::array<float, Degree + 1> absorbed_coefficients() {
   std::array<float, Degree + 1> result{};
   double coefficient = -1;
   for (std::size_t m = 1; m <= Degree; ++m) {
-    coefficient /= -static_cast<double>(m);
+    coefficient /= -static_cast<double>(m) * Divisor;
     result[m] = static_cast<float>(coefficient);
   }
   return result;

@@ -21,31 +21,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class V>
 using SegmentLight = preint::HWY_NAMESPACE::PieceLight<V>;
 
-/// What is deeper is black, whatever its depth.
-inline constexpr float kDeepest = 1e15F;
-
-/// Out of the way of the others, which take nearly all segments.
-template <class D, class V = hn::Vec<D>>
-HWY_NOINLINE SegmentLight<V> deep_light(D d, V a, V b) {
-  const V most = hn::Set(d, kDeepest);
-  return preint::HWY_NAMESPACE::piece_light(d, hn::Min(a, most), hn::Min(b, most));
-}
-
 /// The light of a segment of optical extinction (extinction times length) a at the front and b at
-/// the back, linear in between: front c_front + back c_back for a color that is linear, too. Its
-/// absolute error is that of the forms of piece_light-inl.h, 1e-6.
+/// the back, linear in between. Error: that of piece_light-inl.h at its finest, 1e-6 of the
+/// opacity.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SegmentLight<V> segment_light(D d, V a, V b) {
-  const V depth = hn::Mul(hn::Set(d, 0.5F), hn::Add(a, b));
-  const auto at_most = [&](float limit)
-                           HWY_ATTR { return hn::AllTrue(d, hn::Le(depth, hn::Set(d, limit))); };
-  if (HWY_LIKELY(at_most(preint::kThinPiece))) {
-    return preint::HWY_NAMESPACE::piece_light_thin(d, a, b);
-  }
-  if (at_most(preint::kModeratePiece)) {
-    return preint::HWY_NAMESPACE::piece_light_moderate(d, a, b);
-  }
-  return deep_light(d, a, b);
+  namespace light = preint::HWY_NAMESPACE;
+  return light::piece_light(d, light::optical_piece(d, a, b),
+                            preint::piece_bounds(preint::kFinestPiece));
 }
 
 }  // namespace tetraglass::project::cpu::HWY_NAMESPACE

@@ -115,9 +115,11 @@ class FullShader : public MediumShader {
     const Float b = hn::Mul(part.length, extinction(interval, part.back));
     const SegmentLight<Float> light = segment_light(d, a, b);
     // The color at both ends is that of the interval's low end and a part of the rise.
-    const Float rise = hn::MulAdd(light.front, part.front, hn::Mul(light.back, part.back));
+    const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
+    const Float half_crossed = hn::Mul(set(0.5F), hn::Sub(part.back, part.front));
+    const Float rise = hn::MulAdd(light.opacity, middle, hn::Mul(light.skew, half_crossed));
     Shaded result;
-    result.opacity = hn::Add(light.front, light.back);
+    result.opacity = light.opacity;
     for (std::size_t c = 0; c < 3; ++c) {
       result.color[c] = hn::MulAdd(set(interval.color_rise[c]), rise,
                                    hn::Mul(set(interval.color[c]), result.opacity));

@@ -34,10 +34,10 @@ struct Lights {
     length.push_back(static_cast<float>(s.length));
   }
 
-  void evaluate(const TransferFunction& tf) {
+  void evaluate(const TransferFunction& tf, double tolerance = kFinestPiece) {
     for (auto& channel : rgbt) channel.resize(front.size());
     segment_lights(FloatTransferFunction(tf),
-                   {front, back, length, rgbt[0], rgbt[1], rgbt[2], rgbt[3]});
+                   {front, back, length, rgbt[0], rgbt[1], rgbt[2], rgbt[3]}, tolerance);
   }
 
   [[nodiscard]] double error(const TransferFunction& tf, std::size_t i) const {
@@ -63,6 +63,61 @@ RC_GTEST_PROP(SegmentLightProperty, IsTheIntegralToAMillionth, ()) {
                << "error " << error;
     }
     RC_ASSERT(error <= 1e-6);
+  }
+}
+
+/// Neighbours that cross the same control points, up, down or mixed: the fast ways.
+RC_GTEST_PROP(SegmentLightProperty, IsTheIntegralAcrossTheSameControlPoints, ()) {
+  const TransferFunction tf = rounded(*tests::transfer_function(*rc::gen::element(1.0, 1e6)));
+  const double low = *tests::field_value(), high = *tests::field_value();
+  const double length = *rc::gen::element(1e-3, 1.0, 100.0);
+  Lights lights;
+  for (int i = 0; i < 67; ++i) {
+    const Segment s{low + 1e-3 * *tests::unit(), high - 1e-3 * *tests::unit(), length};
+    const bool turned = *rc::gen::arbitrary<bool>();
+    lights.add(turned ? Segment{s.back, s.front, s.length} : s);
+  }
+  lights.evaluate(tf);
+  for (std::size_t i = 0; i < lights.front.size(); ++i) {
+    RC_ASSERT(lights.error(tf, i) <= 1e-6);
+  }
+}
+
+TEST(SegmentLight, HoldsTheToleranceThatIsAskedFor) {
+  std::vector<ControlPoint> points;
+  for (int i = 0; i <= 8; ++i)
+    points.push_back({i / 8.0, Color(i % 2, 0.5, i / 8.0), 8.0 * (i % 3)});
+  const TransferFunction tf(points);
+  double coarsest = 0;
+  for (const double tolerance : {1e-6, 1e-5, 1e-4, 1e-3}) {
+    Lights lights;
+    for (int i = 0; i < 400; ++i) {
+      lights.add({std::fmod(i * 0.618, 1.2) - 0.1, std::fmod(i * 0.755, 1.2) - 0.1, 0.02 * i});
+    }
+    lights.evaluate(tf, tolerance);
+    for (std::size_t i = 0; i < lights.front.size(); ++i) {
+      const double error = lights.error(tf, i);
+      EXPECT_LE(error, tolerance) << i;
+      coarsest = std::max(coarsest, error);
+    }
+  }
+  EXPECT_GT(coarsest, 1e-5) << "a loose tolerance is used";
+}
+
+TEST(SegmentLight, ValuesAtTheEndsOfWhatCounts) {
+  const TransferFunction tf({{-1e39, {1, 0, 0}, 1}, {0, {0, 1, 0}, 2}, {1e-40, {0, 0, 1}, 1e30}});
+  Lights lights;
+  for (const float a : {-1e38F, -1.0F, 0.0F, 1e-38F, 1e38F}) {
+    for (const float b : {-1e38F, -1e-38F, 0.0F, 1e-38F, 1e38F}) {
+      for (const float length : {0.0F, 1.0F, 3e38F}) lights.add({a, b, length});
+    }
+  }
+  lights.evaluate(tf);
+  for (std::size_t i = 0; i < lights.front.size(); ++i) {
+    for (const auto& channel : lights.rgbt) {
+      EXPECT_GE(channel[i], -1e-6F) << i;
+      EXPECT_LE(channel[i], 1 + 1e-6F) << i;
+    }
   }
 }
 
