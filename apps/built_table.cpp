@@ -4,9 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "base/errors.h"
 #include "preint/psi_table.h"
 #include "preint/ramped_table.h"
 #include "preint/segment_integral.h"
+#include "preint/table_error.h"
 
 namespace tetraglass::apps {
 namespace {
@@ -169,6 +173,30 @@ BuiltTable build(const TableTask& task) {
     result.shape.push_back(4);
   }
   return result;
+}
+
+double choose_size(TableTask& task, double max_error) {
+  double error = 0;
+  if (task.kind == TableKind::full3d) {
+    const preint::Table3D table =
+        choose_full_table(task.tf, task.low, task.high, {task.shortest, task.length}, max_error);
+    task.n = table.n;
+    task.m = table.m;
+    task.axis = table.axis;
+    error = table.max_error.value();
+  } else {
+    const preint::Table2D table =
+        choose_slab_table(task.tf, task.low, task.high, task.length, max_error);
+    task.n = table.n;
+    error = table.max_error.value();
+  }
+  if (error > max_error) {
+    throw base::InputError(
+        fmt::format("no table of at most 256 MiB has errors below {:.3g}: the best has {:.3g}; "
+                    "integrate without a table, or raise --max-error",
+                    max_error, error));
+  }
+  return error;
 }
 
 double largest_error(const TableTask& task, const BuiltTable& table) {

@@ -18,6 +18,7 @@ struct TableTask {
   double low = 0;
   double high = 1;
   double length = 1;
+  double shortest = 0;  ///< of the segments, where the size is chosen
   int n = 0;
   int m = 0;  ///< lengths; 0 for a table of one length
   preint::LengthAxis axis = preint::LengthAxis::linear;
@@ -40,6 +41,11 @@ struct BuiltTable {
 };
 
 [[nodiscard]] BuiltTable build(const TableTask& task);
+
+/// The largest error of a lookup in the smallest full2d or full3d table that keeps it below
+/// `max_error`; sets the size, and the axis of the lengths, in the task. Throws InputError if no
+/// table of 256 MiB does.
+double choose_size(TableTask& task, double max_error);
 
 /// The largest difference of the entries from the exact integrals: of all of a table of 65,536, of
 /// as many that are evenly spread in a larger one.

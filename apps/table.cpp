@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct TableArguments {
   std::string range;
   std::string length = "1";
   std::string kind;
-  std::string size = "256";
+  std::string size;
+  std::string max_error;
   std::string method;
   std::string length_axis = "linear";
   std::string mip_of = "field";
@@ -78,17 +80,29 @@ TableMethod choose_method(const TableArguments& arguments, Kind kind) {
   return method;
 }
 
+constexpr const char* kDefaultSize = "256";
+
 void read_size(const TableArguments& arguments, TableTask& task) {
-  const std::size_t cross = arguments.size.find('x');
+  if (!arguments.max_error.empty()) {
+    if (task.kind != Kind::full2d && task.kind != Kind::full3d) {
+      throw base::UsageError("--max-error chooses the size of --kind full2d and full3d");
+    }
+    if (!arguments.size.empty()) {
+      throw base::UsageError("--max-error chooses the size: leave out --size");
+    }
+    return;
+  }
+  const std::string size = arguments.size.empty() ? kDefaultSize : arguments.size;
+  const std::size_t cross = size.find('x');
   const bool may_have_lengths =
       task.kind == Kind::full3d || task.kind == Kind::weighted || task.kind == Kind::material;
-  task.n = parse_count(arguments.size.substr(0, cross), "--size", 2);
+  task.n = parse_count(size.substr(0, cross), "--size", 2);
   if (cross != std::string::npos) {
     if (!may_have_lengths) {
       throw base::UsageError(
           "--size needs one number here; NxM is for --kind full3d, weighted and material");
     }
-    task.m = parse_count(arguments.size.substr(cross + 1), "--size", 2);
+    task.m = parse_count(size.substr(cross + 1), "--size", 2);
   } else if (task.kind == Kind::full3d) {
     throw base::UsageError("--kind full3d needs --size NxM, values x lengths");
   }
@@ -117,12 +131,23 @@ std::vector<preint::Isosurface> read_isosurfaces(const TableArguments& arguments
   return surfaces;
 }
 
+void read_lengths(const TableArguments& arguments, TableTask& task) {
+  if (arguments.length.find(':') == std::string::npos) {
+    task.length = parse_number(arguments.length, "--length");
+    return;
+  }
+  if (task.kind != Kind::full3d || arguments.max_error.empty()) {
+    throw base::UsageError("--length LO:HI is for --kind full3d with --max-error");
+  }
+  std::tie(task.shortest, task.length) = parse_range(arguments.length, "--length");
+}
+
 TableTask read_task(const TableArguments& arguments) {
   TableTask task;
   task.kind = parse_choice(arguments.kind, "--kind", kinds());
   task.method = choose_method(arguments, task.kind);
   read_size(arguments, task);
-  task.length = parse_number(arguments.length, "--length");
+  read_lengths(arguments, task);
   task.axis = parse_choice<preint::LengthAxis>(
       arguments.length_axis, "--length-axis",
       {{"linear", preint::LengthAxis::linear}, {"logarithmic", preint::LengthAxis::logarithmic}});
@@ -141,7 +166,15 @@ TableTask read_task(const TableArguments& arguments) {
 }
 
 void table(const TableArguments& arguments) {
-  const TableTask task = read_task(arguments);
+  TableTask task = read_task(arguments);
+  std::optional<double> lookup_error;
+  if (!arguments.max_error.empty()) {
+    const double most = parse_number(arguments.max_error, "--max-error");
+    if (!(most > 0)) throw base::UsageError("--max-error must be positive");
+    lookup_error = choose_size(task, most);
+  }
+  const std::string size =
+      task.m > 0 ? fmt::format("{}x{}", task.n, task.m) : std::to_string(task.n);
   if (!arguments.output.empty()) const base::OutputFile probe(arguments.output);
   const base::Stopwatch clock;
   const BuiltTable result = build(task);
@@ -159,16 +192,17 @@ void table(const TableArguments& arguments) {
   }
   const std::string method = name_of(task.method);
   if (arguments.json) {
-    const nlohmann::ordered_json json = {{"kind", arguments.kind},
-                                         {"method", method},
-                                         {"size", arguments.size},
-                                         {"ms", ms},
-                                         {"entries_per_s", entries / ms * 1000},
-                                         {"max_error", error}};
+    nlohmann::ordered_json json = {{"kind", arguments.kind},
+                                   {"method", method},
+                                   {"size", size},
+                                   {"ms", ms},
+                                   {"entries_per_s", entries / ms * 1000},
+                                   {"max_error", error}};
+    if (lookup_error) json["lookup_error"] = *lookup_error;
     fmt::print("{}\n", json.dump());
   } else {
     fmt::print("{} table of {}, {}: {:.3g} ms, {:.3g} entries/s, largest error {:.3g}\n",
-               arguments.kind, arguments.size, method, ms, entries / ms * 1000, error);
+               arguments.kind, size, method, ms, entries / ms * 1000, error);
     if (!arguments.output.empty()) fmt::print("{}\n", arguments.output);
   }
 }
@@ -185,14 +219,17 @@ void add_table(CLI::App& program) {
                   "emission | mip | iso | full2d | full3d | weighted | material | psi")
       ->required();
   app->add_option("--size", a->size,
-                  "N values, or NxM values x lengths (full3d, weighted, material)")
-      ->capture_default_str();
+                  "N values, or NxM values x lengths (full3d, weighted, material). Default: 256");
+  app->add_option("--max-error", a->max_error,
+                  "Instead of --size: the smallest table whose lookups err by no more (full2d, "
+                  "full3d)");
   app->add_option("--tf", a->transfer_function, transfer_function_help())->capture_default_str();
   app->add_option("--range", a->range,
                   "LO:HI, the values of the table. Default: those of the transfer function");
   app->add_option(
          "--length", a->length,
-         "Length of the segments; the largest one (NxM). The unit is the preset's diagonal")
+         "Length of the segments; the largest one (NxM); LO:HI with --max-error, where only these "
+         "lengths count. The unit is the preset's diagonal")
       ->capture_default_str();
   app->add_option("--length-axis", a->length_axis, "linear | logarithmic: fine for short segments")
       ->capture_default_str();

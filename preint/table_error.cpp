@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/errors.h"
 #include "preint/segment_integral.h"
 #include "preint/table_axis.h"
 
@@ -74,7 +77,13 @@ double on_sample(double x, int samples, bool snap) {
   return snap ? std::round(x * (samples - 1)) / (samples - 1) : x;
 }
 
-double measure(const Table3D& table, const TransferFunction& tf, std::size_t samples, Snap snap) {
+double measure(const Table3D& table, const TransferFunction& tf, const LengthRange& lengths,
+               std::size_t samples, Snap snap) {
+  const auto coordinate = [&](double length) {
+    return length_coordinate(table.axis, table.max_length, table.m, length) / (table.m - 1);
+  };
+  const double shortest = coordinate(lengths.shortest);
+  const double longest = std::min(1.0, coordinate(lengths.longest));
   double worst = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const auto [x, y, z] = place(i);
@@ -83,7 +92,7 @@ double measure(const Table3D& table, const TransferFunction& tf, std::size_t sam
       return table.low * (1 - s) + table.high * s;
     };
     // Evenly over the samples of the axis, and so over what the axis resolves.
-    const double l = on_sample(z, table.m, snap == Snap::length);
+    const double l = on_sample(shortest * (1 - z) + longest * z, table.m, snap == Snap::length);
     const double length = length_at(table.axis, table.max_length, table.m, l * (table.m - 1));
     const Segment segment{value(x), value(y), length};
     const Lookup found = lookup(table, segment.front, segment.back, length);
@@ -133,7 +142,12 @@ double slab_table_error(const Table2D& table, const TransferFunction& tf, double
 }
 
 double full_table_error(const Table3D& table, const TransferFunction& tf, std::size_t samples) {
-  return measure(table, tf, samples, Snap::nothing);
+  return full_table_error(table, tf, {0, table.max_length}, samples);
+}
+
+double full_table_error(const Table3D& table, const TransferFunction& tf,
+                        const LengthRange& lengths, std::size_t samples) {
+  return measure(table, tf, lengths, samples, Snap::nothing);
 }
 
 Table2D choose_slab_table(const TransferFunction& tf, double low, double high, double length,
@@ -148,17 +162,21 @@ Table2D choose_slab_table(const TransferFunction& tf, double low, double high, d
   return *std::move(best);
 }
 
-Table3D choose_full_table(const TransferFunction& tf, double low, double high, double max_length,
-                          double max_error, std::size_t max_bytes) {
+Table3D choose_full_table(const TransferFunction& tf, double low, double high,
+                          const LengthRange& lengths, double max_error, std::size_t max_bytes) {
+  if (!(0 <= lengths.shortest && lengths.shortest <= lengths.longest)) {
+    throw base::UsageError(
+        fmt::format("lengths from {} to {} are no range", lengths.shortest, lengths.longest));
+  }
   std::size_t n = kSmallest, m = kSmallest;
   const auto make = [&](LengthAxis axis) {
-    Table3D table = full_table(tf, low, high, max_length, static_cast<int>(n), static_cast<int>(m),
-                               TableMethod::incremental, axis);
-    table.max_error = full_table_error(table, tf);
+    Table3D table = full_table(tf, low, high, lengths.longest, static_cast<int>(n),
+                               static_cast<int>(m), TableMethod::incremental, axis);
+    table.max_error = full_table_error(table, tf, lengths);
     return table;
   };
   const auto length_error = [&](const Table3D& t) {
-    return measure(t, tf, kSnapped, Snap::values);
+    return measure(t, tf, lengths, kSnapped, Snap::values);
   };
   Table3D table = make(LengthAxis::linear);
   {
@@ -167,8 +185,9 @@ Table3D choose_full_table(const TransferFunction& tf, double low, double high, d
   }
   Table3D best = table;
   while (*best.max_error > max_error) {
-    const bool lengths = length_error(table) > measure(table, tf, kSnapped, Snap::length);
-    (lengths ? m : n) *= 2;
+    const bool finer_lengths =
+        length_error(table) > measure(table, tf, lengths, kSnapped, Snap::length);
+    (finer_lengths ? m : n) *= 2;
     if (bytes(n, m) > max_bytes) break;
     table = make(table.axis);
     if (*table.max_error < *best.max_error) best = table;

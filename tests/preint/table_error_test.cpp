@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "preint/segment_integral.h"
 
 namespace tetraglass::preint {
@@ -70,7 +71,7 @@ TEST(TableError, FallsWithTheSquareOfTheStep) {
 
 TEST(TableError, ChoosesTheSizeForABudget) {
   for (const double budget : {1e-2, 1e-3}) {
-    const Table3D table = choose_full_table(kSmooth, 0, 1, 5, budget);
+    const Table3D table = choose_full_table(kSmooth, 0, 1, {0, 5}, budget);
     ASSERT_TRUE(table.max_error.has_value());
     EXPECT_LE(*table.max_error, budget);
     EXPECT_EQ(*table.max_error, full_table_error(table, kSmooth));
@@ -86,13 +87,29 @@ TEST(TableError, ChoosesTheSizeForABudget) {
 
 TEST(TableError, AShortLengthMattersInADenseMedium) {
   const TransferFunction dense({{0, {1, 0, 0}, 50}, {1, {0, 0, 1}, 200}});
-  EXPECT_EQ(choose_full_table(dense, 0, 1, 10, 1e-2).axis, LengthAxis::logarithmic);
+  EXPECT_EQ(choose_full_table(dense, 0, 1, {0, 10}, 1e-2).axis, LengthAxis::logarithmic);
+}
+
+TEST(TableError, OnlyLengthsThatOccurCount) {
+  // Where all segments are opaque the short ones, which need a fine axis, do not matter.
+  const TransferFunction dense({{0, {1, 0, 0}, 50}, {1, {0, 0, 1}, 200}});
+  const LengthRange long_ones{5, 10};
+  const Table3D all = choose_full_table(dense, 0, 1, {0, 10}, 3e-3);
+  const Table3D some = choose_full_table(dense, 0, 1, long_ones, 3e-3);
+  EXPECT_LE(*all.max_error, 3e-3);
+  EXPECT_LE(*some.max_error, 3e-3);
+  EXPECT_EQ(*some.max_error, full_table_error(some, dense, long_ones));
+  EXPECT_LT(some.rgba.size(), all.rgba.size());
+  EXPECT_GT(full_table_error(some, dense), 3e-3);
+  EXPECT_THROW((void)choose_full_table(dense, 0, 1, {2, 1}, 1e-2), base::UsageError);
+  EXPECT_THROW((void)choose_full_table(dense, 0, 1, {-1, 1}, 1e-2), base::UsageError);
+  EXPECT_THROW((void)choose_full_table(dense, 0, 1, {std::nan(""), 1}, 1e-2), base::UsageError);
 }
 
 TEST(TableError, StopsAtTheMemoryGiven) {
   const TransferFunction spike(
       {{0.5, {1, 1, 1}, 0}, {0.5005, {1, 1, 1}, 1e5}, {0.501, {1, 1, 1}, 0}});
-  const Table3D table = choose_full_table(spike, 0, 1, 1, 1e-6, std::size_t{4} << 20);
+  const Table3D table = choose_full_table(spike, 0, 1, {0, 1}, 1e-6, std::size_t{4} << 20);
   EXPECT_LE(table.rgba.size() * sizeof(float), std::size_t{4} << 20);
   EXPECT_GT(*table.max_error, 1e-6);
 }
