@@ -195,6 +195,10 @@ TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
   expect_error("table --kind full2d --size 32x8", 2, "NxM");
   expect_error("table --kind full3d --size 32", 2, "NxM");
   expect_error("table --kind fulll2d --size 32", 2, "'full2d'");
+  expect_error("table --kind psi --max-error 1e-2", 2, "full2d and full3d");
+  expect_error("table --kind full2d --max-error 1e-2 --size 32", 2, "leave out --size");
+  expect_error("table --kind full2d --max-error 0", 2, "positive");
+  expect_error("table --kind full3d --max-error 1e-2 --length 2:1", 2, "--length");
 }
 
 TEST_F(CommandLine, OrdersAreTimedAndVerified) {
