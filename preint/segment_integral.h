@@ -22,7 +22,8 @@ inline constexpr double kFinest = 1e-15;
 
 /// The volume rendering integral of one segment under the transfer function, in double, with an
 /// absolute error of at most max(1e-12, tolerance) (colors in [0, 1]): split at the control points,
-/// then Gauss-Legendre on parts of bounded optical depth, the cheapest rule for the tolerance.
+/// then in closed form (error functions) where a piece is deeper than 0.25, by the cheapest
+/// Gauss-Legendre rule for the tolerance where it is thinner.
 /// DESIGN section 2, mode `full`. The transmittance has no error but rounding.
 [[nodiscard]] Radiance integrate_full(const TransferFunction& tf, const Segment& segment,
                                       double tolerance = kFinest);
