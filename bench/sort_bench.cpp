@@ -1,39 +1,154 @@
-#include <algorithm>
+// Visibility orders, VTK's beside them; items are cells. The eye goes around the mesh from frame to
+// frame.
+
+#include <array>
+#include <map>
+#include <memory>
 #include <numeric>
 #include <random>
+#include <string>
+#include <utility>
 
 #include <benchmark/benchmark.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellCenterDepthSort.h>
+#include <vtkIdTypeArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
 
+#include "base/errors.h"
 #include "mesh/samples.h"
-#include "sort/centroid.h"
+#include "mesh/tetrahedralize.h"
+#include "sort/cell_sorter.h"
 
-// Visibility orders of grids of 5 tetrahedra per voxel; items are cells.
 namespace {
 
 using namespace tetraglass;
+using Eigen::Vector3d;
+using sort::Method;
 
-enum Numbering : int { in_file_order, at_random };
+// Of uniformly random points; about `cells` tetrahedra.
+mesh::TetMesh random_delaunay(std::size_t cells) {
+  constexpr double kCellsPerPoint = 6.7;
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  mesh::MeshData data;
+  data.points.resize(static_cast<std::size_t>(static_cast<double>(cells) / kCellsPerPoint));
+  for (Vector3d& p : data.points) p = {unit(random), unit(random), unit(random)};
+  std::vector<std::string> notes;
+  return mesh::delaunay(data, notes);
+}
 
-void centroid(benchmark::State& state, bool parallel, Numbering numbering) {
-  const mesh::TetMesh mesh = mesh::make_sample("sphere", static_cast<std::size_t>(state.range(0)));
+// The last mesh made is kept: benchmarks of one mesh follow each other.
+const mesh::TetMesh& make_mesh(const std::string& name, std::int64_t cells) {
+  static std::pair<std::string, std::int64_t> which;
+  static mesh::TetMesh mesh;
+  if (which != std::pair(name, cells)) {
+    const auto n = static_cast<std::size_t>(cells);
+    mesh = name == "random" ? random_delaunay(n) : mesh::make_sample(name, n);
+    which = {name, cells};
+  }
+  return mesh;
+}
+
+// A few degrees between views that follow each other.
+class Flight {
+ public:
+  Flight(const mesh::TetMesh& mesh, bool parallel)
+      : box_(mesh::bounds(mesh)), parallel_(parallel) {}
+
+  sort::View next() {
+    angle_ += 0.05;
+    const Vector3d away = Vector3d(std::cos(angle_), std::sin(angle_), 0.6).normalized();
+    return {parallel_, box_.center() + 1.5 * box_.diagonal().norm() * away, -away};
+  }
+
+ private:
+  mesh::Box box_;
+  bool parallel_;
+  double angle_ = 0.6;
+};
+
+void order(benchmark::State& state, const std::string& name, Method method, bool parallel) {
+  const mesh::TetMesh& mesh = make_mesh(name, state.range(0));
   std::vector<std::uint32_t> cells(mesh.cells.size());
   std::iota(cells.begin(), cells.end(), 0U);
-  if (numbering == at_random) std::shuffle(cells.begin(), cells.end(), std::mt19937(1));
-  const sort::View view{parallel, {3, 4, 5}, Eigen::Vector3d(-3, -4, -5).normalized()};
-  sort::CentroidSorter sorter;
-  for (auto _ : state) benchmark::DoNotOptimize(sorter.sort(mesh, cells, view).cells.data());
+  sort::CellSorter sorter(method, mesh, cells);
+  Flight flight(mesh, parallel);
+  for (auto _ : state) benchmark::DoNotOptimize(sorter.sort(flight.next()).cells.data());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.size()));
 }
 
-constexpr std::int64_t kSizes[] = {1000, 148955, 1000000, 10000000};
-
-void sizes(benchmark::internal::Benchmark* bench) {
-  for (const std::int64_t size : kSizes) bench->Arg(size);
-  bench->Unit(benchmark::kMillisecond)->UseRealTime();
+vtkNew<vtkUnstructuredGrid> to_vtk(const mesh::TetMesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 4);
+  for (const mesh::Cell& cell : mesh.cells) {
+    std::array<vtkIdType, 4> ids{};
+    std::copy(cell.begin(), cell.end(), ids.begin());
+    grid->InsertNextCell(10 /* VTK_TETRA */, 4, ids.data());
+  }
+  return grid;
 }
 
-BENCHMARK_CAPTURE(centroid, parallel_view, true, in_file_order)->Apply(sizes);
-BENCHMARK_CAPTURE(centroid, perspective, false, in_file_order)->Apply(sizes);
-BENCHMARK_CAPTURE(centroid, perspective_shuffled, false, at_random)->Apply(sizes);
+// Also by centroids, to the end: it sorts further while it hands out the cells.
+void vtk_cell_center_depth_sort(benchmark::State& state, const std::string& name, bool parallel) {
+  const mesh::TetMesh& mesh = make_mesh(name, state.range(0));
+  const vtkNew<vtkUnstructuredGrid> grid = to_vtk(mesh);
+  const vtkNew<vtkCamera> camera;
+  const vtkNew<vtkMatrix4x4> model;
+  camera->SetParallelProjection(parallel ? 1 : 0);
+  const vtkNew<vtkCellCenterDepthSort> sorter;
+  sorter->SetInput(grid);
+  sorter->SetCamera(camera);
+  sorter->SetModelTransform(model);
+  sorter->SetDirectionToBackToFront();
+  Flight flight(mesh, parallel);
+  for (auto _ : state) {
+    const sort::View view = flight.next();
+    const Vector3d target = view.eye + view.direction;
+    camera->SetPosition(view.eye.data());
+    camera->SetFocalPoint(target.data());
+    sorter->InitTraversal();
+    while (vtkIdTypeArray* some = sorter->GetNextCells()) benchmark::DoNotOptimize(some);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.cells.size()));
+}
+
+void add(const std::string& mesh, std::int64_t size) {
+  const auto set = [size](benchmark::internal::Benchmark* bench) {
+    bench->Arg(size)->Unit(benchmark::kMillisecond)->UseRealTime();
+  };
+  for (const bool parallel : {true, false}) {
+    const std::string view = parallel ? "/parallel" : "/perspective";
+    for (const Method method : {Method::centroid, Method::power, Method::mpvo}) {
+      if (method == Method::power && mesh == "shells") continue;  // not Delaunay
+      set(benchmark::RegisterBenchmark((mesh + "/" + to_string(method) + view).c_str(), order, mesh,
+                                       method, parallel));
+    }
+    set(benchmark::RegisterBenchmark((mesh + "/vtk" + view).c_str(), vtk_cell_center_depth_sort,
+                                     mesh, parallel));
+  }
+}
 
 }  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  // Random points' Delaunay mesh, a grid of 5 cells per voxel, four shells in each other.
+  for (const std::int64_t size : {100000, 1000000}) add("random", size);
+  for (const std::int64_t size : {100000, 1000000, 10000000}) add("sphere", size);
+  add("shells", 100000);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
