@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "sort/hiding_graph.h"
 #include "sort/order.h"
 
 namespace tetraglass::sort {
@@ -13,12 +14,6 @@ namespace tetraglass::sort {
 struct BoundaryFace {
   std::uint32_t cell = 0;
   std::array<std::uint32_t, 3> vertices{};
-};
-
-/// Two cells of which `front` hides a part of `back`.
-struct Relation {
-  std::uint32_t front = 0;
-  std::uint32_t back = 0;
 };
 
 /// The relations between cells that see each other through a gap of the mesh: some ray leaves

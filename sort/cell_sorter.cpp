@@ -10,21 +10,13 @@
 namespace tetraglass::sort {
 namespace {
 
-// The centroid sorter with what it sorts.
-struct ByCentroid {
-  const mesh::TetMesh& mesh;
-  std::vector<std::uint32_t> cells;
-  CentroidSorter sorter;
-  Order sort(const View& view) { return sorter.sort(mesh, cells, view); }
-};
-
-using AnySorter = std::variant<ByCentroid, PowerSorter, MpvoSorter>;
+using AnySorter = std::variant<CentroidSorter, PowerSorter, MpvoSorter>;
 
 AnySorter make(Method method, const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
                std::span<const double> weights) {
   switch (method) {
     case Method::centroid:
-      return ByCentroid{mesh, {cells.begin(), cells.end()}, {}};
+      return CentroidSorter(mesh, cells);
     case Method::power:
       return PowerSorter(mesh, cells, weights);
     case Method::mpvo:
@@ -50,8 +42,8 @@ CellSorter::CellSorter(CellSorter&&) noexcept = default;
 CellSorter& CellSorter::operator=(CellSorter&&) noexcept = default;
 CellSorter::~CellSorter() = default;
 
-Order CellSorter::sort(const View& view) {
-  return std::visit([&](auto& sorter) { return sorter.sort(view); }, sorter_->any);
+const Order& CellSorter::sort(const View& view) {
+  return std::visit([&](auto& sorter) -> const Order& { return sorter.sort(view); }, sorter_->any);
 }
 
 std::string to_string(Method method) {

@@ -31,7 +31,8 @@ class CellSorter {
   CellSorter& operator=(CellSorter&&) noexcept;
   ~CellSorter();
 
-  [[nodiscard]] Order sort(const View& view);
+  /// Farthest first. Valid until the next call.
+  [[nodiscard]] const Order& sort(const View& view);
 
  private:
   struct Sorter;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace tetraglass::sort {
 namespace {
@@ -115,6 +116,17 @@ void break_ring(const HidingGraph& graph, std::vector<std::uint32_t>& component,
 }
 
 }  // namespace
+
+HidingGraph make_graph(std::size_t size, std::span<const Relation> relations) {
+  HidingGraph graph;
+  graph.offsets.assign(size + 1, 0);
+  for (const Relation& relation : relations) ++graph.offsets[relation.back + 1];
+  std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
+  graph.fronts.resize(relations.size());
+  std::vector<std::uint32_t> places(graph.offsets.begin(), graph.offsets.end() - 1);
+  for (const Relation& relation : relations) graph.fronts[places[relation.back]++] = relation.front;
+  return graph;
+}
 
 std::vector<std::vector<std::uint32_t>> strong_components(const HidingGraph& graph) {
   return std::move(Search(graph).components_);

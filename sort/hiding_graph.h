@@ -6,6 +6,12 @@
 
 namespace tetraglass::sort {
 
+/// Two cells of which `front` hides a part of `back`.
+struct Relation {
+  std::uint32_t front = 0;
+  std::uint32_t back = 0;
+};
+
 /// Cells 0 .. size - 1 and, for each, those that hide a part of it.
 struct HidingGraph {
   std::vector<std::uint32_t> offsets{
@@ -17,6 +23,9 @@ struct HidingGraph {
     return {fronts.data() + offsets[cell], fronts.data() + offsets[cell + 1]};
   }
 };
+
+/// The graph of `size` cells and these relations.
+[[nodiscard]] HidingGraph make_graph(std::size_t size, std::span<const Relation> relations);
 
 /// The strongly connected components of the graph, in an order in which each comes before those
 /// that hide it. Members in no particular order. Cost: linear, no recursion. Source: Tarjan 1972,

@@ -46,6 +46,7 @@ MpvoSorter::MpvoSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t>
   find_planes();
   entries_.resize(mesh.cells.size());
   behind_.resize(mesh.cells.size());
+  order_.method = "mpvo";
 }
 
 void MpvoSorter::find_planes() {
@@ -59,41 +60,18 @@ void MpvoSorter::find_planes() {
   }
   planes_.resize(mesh_.cells.size());
   tbb::parallel_for(Range(0, links_.cells.size(), kGrain), [&](const Range& range) {
-    // Below this sine of the angle between two edges the normal is too uncertain to be of use.
-    constexpr double kLeastSine = 0x1p-26;
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       for (std::size_t face = 0; face < 4; ++face) {
         const auto [ia, ib, ic] = face_vertices(mesh_.cells[links_.cells[i]], face);
-        const Vector3d& a = mesh_.points[ia];
-        const Vector3d u = mesh_.points[ib] - a;
-        const Vector3d v = mesh_.points[ic] - a;
-        const Vector3d normal = u.cross(v);
-        const double length = normal.norm();
-        Plane& plane = planes_[links_.cells[i]][face];
-        if (!(length > kLeastSine * u.norm() * v.norm()) || !std::isnormal(length)) {
-          plane = {Eigen::Vector3f::Zero(), std::numeric_limits<float>::quiet_NaN()};
-          continue;
-        }
-        plane.normal = (normal / length).cast<float>();
-        plane.offset = static_cast<float>(-plane.normal.cast<double>().dot(a - middle_));
+        planes_[links_.cells[i]][face] =
+            face_plane(mesh_.points[ia], mesh_.points[ib], mesh_.points[ic], middle_);
       }
     }
   });
 }
 
-// The height of the eye over a plane is computed in float. Let u = 2^-24, e the eye and a the
-// face's first vertex, both relative to the middle. The normal in double is off by at most 2^-49 /
-// kLeastSine < u in length (Higham 2002, Accuracy and Stability, 3.1: the cross product of two
-// rounded differences, 8 roundings of |u| |v|), that in float by 2 u more: 3 u |e - a|. The offset
-// is rounded by 2 u |a|, the eye by u |e|, the sum of four terms of at most |e| and |a| by 4 u (2
-// |e| + |a|). Together less than 12 u |e| + 9 u |a| < 2^-20 (|e| + radius). In parallel views the
-// eye is the unit vector against the direction, and the offset does not count.
 void MpvoSorter::classify_faces(const View& view) {
-  const Vector3d eye = view.parallel ? Vector3d(-view.direction) : Vector3d(view.eye - middle_);
-  const Eigen::Vector3f e = eye.cast<float>();
-  const float offset_weight = view.parallel ? 0.0F : 1.0F;
-  const auto slack =
-      static_cast<float>(0x1p-20 * (eye.norm() + (view.parallel ? 0.0 : radius_)) * (1 + 0x1p-20));
+  const EyeSides sides(view, middle_, radius_);
   tbb::parallel_for(Range(0, links_.cells.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const std::uint32_t cell = links_.cells[i];
@@ -101,18 +79,10 @@ void MpvoSorter::classify_faces(const View& view) {
       std::uint32_t exits = 0;
       for (std::size_t face = 0; face < 4; ++face) {
         if (links_.adjacency.neighbors[cell][face] == mesh::kNoCell) continue;
-        const Plane& plane = planes_[cell][face];
-        const float height = plane.normal.x() * e.x() + plane.normal.y() * e.y() +
-                             plane.normal.z() * e.z() + offset_weight * plane.offset;
-        if (height > slack) {
-          entries |= 1U << face;
-        } else if (height < -slack) {
-          ++exits;
-        } else {
-          const int side = eye_side(view, mesh_, cell, face);
-          if (side > 0) entries |= 1U << face;
-          if (side < 0) ++exits;
-        }
+        int side = sides.of(planes_[cell][face]);
+        if (side == 0) side = eye_side(view, mesh_, cell, face);
+        if (side > 0) entries |= 1U << face;
+        if (side < 0) ++exits;
       }
       entries_[cell] = static_cast<Faces>(entries);
       behind_[cell] = exits;
@@ -166,8 +136,8 @@ void MpvoSorter::for_each_front(std::uint32_t cell, const F& f) const {
   }
 }
 
-void MpvoSorter::emit(std::uint32_t cell, Order& order) {
-  order.cells.push_back(cell);
+void MpvoSorter::emit(std::uint32_t cell) {
+  order_.cells.push_back(cell);
   behind_[cell] = kDrawn;
   for_each_front(cell, [&](std::uint32_t front) {
     if (--behind_[front] == 0) ready_.push_back(front);
@@ -175,7 +145,7 @@ void MpvoSorter::emit(std::uint32_t cell, Order& order) {
 }
 
 // Cells that hide each other in a ring, and those that hide them.
-void MpvoSorter::order_remaining(const View& view, Order& order) {
+void MpvoSorter::order_remaining(const View& view) {
   std::vector<std::uint32_t> left;
   std::vector<double> depths;
   for (const std::uint32_t cell : links_.cells) {
@@ -196,16 +166,16 @@ void MpvoSorter::order_remaining(const View& view, Order& order) {
     graph.offsets.push_back(static_cast<std::uint32_t>(graph.fronts.size()));
   }
   const ResolvedOrder resolved = resolve(graph, depths);
-  for (const std::uint32_t i : resolved.cells) order.cells.push_back(left[i]);
-  for (const std::uint32_t i : resolved.cyclic_cells) order.cyclic_cells.push_back(left[i]);
-  order.cycles = resolved.cycles;
+  for (const std::uint32_t i : resolved.cells) order_.cells.push_back(left[i]);
+  for (const std::uint32_t i : resolved.cyclic_cells) order_.cyclic_cells.push_back(left[i]);
+  order_.cycles = resolved.cycles;
 }
 
-Order MpvoSorter::sort(const View& view) {
-  Order order;
-  order.method = "mpvo";
-  order.cells.reserve(links_.cells.size() + links_.flat.size());
-  order.cells = links_.flat;
+const Order& MpvoSorter::sort(const View& view) {
+  order_.cycles = 0;
+  order_.cyclic_cells.clear();
+  order_.cells.reserve(links_.cells.size() + links_.flat.size());
+  order_.cells = links_.flat;
   classify_faces(view);
   collect_boundary(view);
   index_relations(boundary_relations(mesh_, exit_faces_, entry_faces_, view));
@@ -213,16 +183,16 @@ Order MpvoSorter::sort(const View& view) {
   for (const std::uint32_t cell : links_.cells) {
     if (behind_[cell] != 0) continue;
     // Depth first: what a cell hides it hides soon, and both are in the cache.
-    emit(cell, order);
+    emit(cell);
     while (!ready_.empty()) {
       const std::uint32_t next = ready_.back();
       ready_.pop_back();
-      emit(next, order);
+      emit(next);
     }
   }
-  if (order.cells.size() < links_.cells.size() + links_.flat.size()) order_remaining(view, order);
-  order.exact = order.cycles == 0;
-  return order;
+  if (order_.cells.size() < links_.cells.size() + links_.flat.size()) order_remaining(view);
+  order_.exact = order_.cycles == 0;
+  return order_;
 }
 
 Order sort_mpvo(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells, const View& view) {

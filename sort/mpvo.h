@@ -8,6 +8,7 @@
 #include "mesh/tet_mesh.h"
 #include "sort/boundary_relations.h"
 #include "sort/cell_links.h"
+#include "sort/face_planes.h"
 #include "sort/order.h"
 
 namespace tetraglass::sort {
@@ -26,16 +27,10 @@ class MpvoSorter {
   MpvoSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells);
 
   /// Cost: linear, and n log n in the boundary faces. Where cells do not overlap, `exact` is
-  /// `cycles == 0`.
-  [[nodiscard]] Order sort(const View& view);
+  /// `cycles == 0`. Valid until the next call.
+  [[nodiscard]] const Order& sort(const View& view);
 
  private:
-  // The plane of a face: height over it = normal . p + offset, p relative to the middle of the
-  // mesh.
-  struct Plane {
-    Eigen::Vector3f normal;
-    float offset;
-  };
   // The faces of a cell where a ray enters from a neighbour, a bit for each, and what else it
   // needs.
   using Faces = std::uint8_t;
@@ -44,14 +39,14 @@ class MpvoSorter {
   void classify_faces(const View& view);
   void collect_boundary(const View& view);
   void index_relations(const std::vector<Relation>& relations);
-  void emit(std::uint32_t cell, Order& order);
-  void order_remaining(const View& view, Order& order);
+  void emit(std::uint32_t cell);
+  void order_remaining(const View& view);
   template <typename F>
   void for_each_front(std::uint32_t cell, const F& f) const;
 
   const mesh::TetMesh& mesh_;
   CellLinks links_;
-  std::vector<std::array<Plane, 4>> planes_;
+  std::vector<std::array<FacePlane, 4>> planes_;
   std::vector<std::uint32_t> boundary_cells_;
   Eigen::Vector3d middle_;
   double radius_ = 0;
@@ -59,6 +54,7 @@ class MpvoSorter {
   std::vector<Faces> entries_;
   std::vector<std::uint32_t> behind_;  // cells that each cell hides and that are not yet drawn
   std::vector<std::uint32_t> ready_;
+  Order order_;
   std::vector<BoundaryFace> exit_faces_;
   std::vector<BoundaryFace> entry_faces_;
   // The relations across gaps, by the cell that is hidden.

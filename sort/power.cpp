@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "base/errors.h"
 #include "mesh/check.h"
@@ -22,6 +20,16 @@ using Range = tbb::blocked_range<std::size_t>;
 
 constexpr std::size_t kGrain = 4096;
 
+// Adds to the errors of a sphere what evaluating a power costs: the eye relative to the middle is
+// rounded (1), so are the four products (1 each), the two sums of three of them and the last one
+// (at most 4 in a row), and this bound itself: less than 16 u of the absolute values of the terms.
+PowerSphere with_roundings(PowerSphere sphere) {
+  constexpr double kRoundings = 0x1p-49;
+  sphere.constant_error += kRoundings * std::abs(sphere.constant);
+  sphere.center_error += kRoundings * sphere.center.cwiseAbs().maxCoeff();
+  return sphere;
+}
+
 }  // namespace
 
 PowerSorter::PowerSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
@@ -31,144 +39,244 @@ PowerSorter::PowerSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_
   for (const std::uint32_t cell : links_.cells) {
     for (const std::uint32_t v : mesh.cells[cell]) box.extend(mesh.points[v]);
   }
-  if (!box.isEmpty()) middle_ = box.center();
-  spheres_.resize(links_.cells.size());
-  tbb::parallel_for(Range(0, spheres_.size(), kGrain), [&](const Range& range) {
+  if (!box.isEmpty()) {
+    middle_ = box.center();
+    radius_ = 0.5 * box.diagonal().norm();
+  }
+  std::vector<PowerSphere> spheres(links_.cells.size());
+  tbb::parallel_for(Range(0, spheres.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      spheres_[i] = power_sphere(mesh, links_.cells[i], weights, middle_);
+      spheres[i] = power_sphere(mesh, links_.cells[i], weights, middle_);
     }
   });
-  const std::string reason = irregularity(mesh, links_, weights, spheres_, middle_);
-  if (!reason.empty()) {
-    throw base::InputError("the order 'power' is for Delaunay meshes, and this is none: " + reason +
-                           "; use 'mpvo'");
+  const Regularity regularity = check_regularity(mesh, links_, weights, spheres, middle_);
+  if (!regularity.fault.empty()) {
+    throw base::InputError("the order 'power' is for Delaunay meshes, and this is none: " +
+                           regularity.fault + "; use 'mpvo'");
   }
   convex_ = links_.cells.size() == mesh.cells.size() && mesh::check(mesh).convex;
+  groups_.emplace(mesh, links_, regularity.ties, middle_);
+  spheres_.reserve(groups_->size());
+  for (std::size_t group = 0; group < groups_->size(); ++group) {
+    const auto first =
+        std::lower_bound(links_.cells.begin(), links_.cells.end(), groups_->cells(group).front());
+    spheres_.push_back(
+        with_roundings(spheres[static_cast<std::size_t>(first - links_.cells.begin())]));
+  }
+  order_.method = "power";
 }
 
-// power = constant - 2 e . center, less |e|^2; in parallel views direction . center. With the
-// errors E of the sphere, and the roundings of e (1), the three products (1 each), the two sums of
-// them and the last one (at most 5 in a row): less than 8 u (|constant| + 2 sum |e_i center_i|)
-// more.
-void PowerSorter::write_powers(const View& view) {
-  entries_.resize(links_.cells.size());
-  const Vector3d e = view.parallel ? view.direction : Vector3d(view.eye - middle_);
-  const double scale = view.parallel ? 1.0 : -2.0;
-  const double constant_scale = view.parallel ? 0.0 : 1.0;
-  const Vector3d size = e.cwiseAbs();
-  constexpr double kRounding = 0x1p-50;
-  tbb::parallel_for(Range(0, entries_.size(), kGrain), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const PowerSphere& s = spheres_[i];
-      const double power = constant_scale * s.constant + scale * e.dot(s.center);
-      const double error =
-          constant_scale * s.constant_error + 2 * size.sum() * s.center_error +
-          kRounding * (constant_scale * std::abs(s.constant) + 2 * size.dot(s.center.cwiseAbs()));
-      entries_[i] = {power - error, power + error, links_.cells[i]};
+// Of at most a thousand groups.
+PowerKeys PowerSorter::choose_keys(const PowerOfEye& power) const {
+  constexpr std::size_t kMost = 1024;
+  const std::size_t step = spheres_.size() / kMost + 1;
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < spheres_.size(); i += step) {
+    const double some = power.of(spheres_[i]);
+    if (std::isfinite(some)) sample.push_back(some);
+  }
+  return PowerKeys(std::move(sample));
+}
+
+// An entry for each group, and the keys that those may have whose own is uncertain.
+PowerSorter::Entries PowerSorter::sort_groups(Frame& frame) {
+  const auto doubtful_range = [&](double power, double doubt) {
+    constexpr std::uint32_t kLast = std::numeric_limits<std::uint32_t>::max();
+    if (!std::isfinite(power) || !std::isfinite(doubt)) return KeyRange{0, kLast};
+    const std::uint32_t low = frame.keys.key(power + doubt);
+    const std::uint32_t high = frame.keys.key(power - doubt);
+    return KeyRange{low - (low > 0 ? 1 : 0), high + (high < kLast ? 1 : 0)};
+  };
+  const auto write = [&](std::size_t begin, std::size_t count, KeyedItem* target) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const PowerSphere& sphere = spheres_[begin + i];
+      const double power = frame.power.of(sphere);
+      const double doubt = frame.power.doubt(sphere);
+      target[i] = keyed(std::isfinite(power) ? frame.keys.key(power) : 0,
+                        static_cast<std::uint32_t>(begin + i));
+      if (!frame.keys.is_certain(doubt)) {
+        const std::lock_guard lock(frame.mutex);
+        frame.doubtful.push_back(doubtful_range(power, doubt));
+      }
     }
-  });
+  };
+  const Entries entries = sorter_.sort(spheres_.size(), write);
+  join_overlapping(frame.doubtful);
+  return entries;
 }
 
-// Cuts the sorted entries wherever all before are certain to be farther than all after.
-void PowerSorter::find_runs() {
-  runs_.clear();
-  // Sorted by the upper end, farthest first: a cut is certain where no lower end before it comes
-  // below the next upper end.
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (i == 0 || lowest > entries_[i].high) runs_.push_back({i, i});
-    runs_.back().end = i + 1;
-    lowest = std::min(lowest, entries_[i].low);
+void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& frame) {
+  std::uint32_t* target = order_.cells.data() + place;
+  if (groups_->write_order(group, frame.view, frame.sides, target)) return;
+  const auto cells = groups_->cells(group);
+  const std::lock_guard lock(frame.mutex);
+  ++order_.cycles;
+  order_.cyclic_cells.insert(order_.cyclic_cells.end(), cells.begin(), cells.end());
+}
+
+// Writes the runs of groups of uncertain order that begin within a chunk of the entries, of which
+// the first one has its cells at `place`.
+void PowerSorter::write_chunk(Entries entries, std::size_t begin, std::size_t end,
+                              std::size_t place, Frame& frame) {
+  const auto is_cut_before = [&](std::size_t i) {
+    return i == 0 || i == entries.size() ||
+           is_cut(key_of(entries[i - 1]), key_of(entries[i]), frame.doubtful);
+  };
+  for (; begin < end && !is_cut_before(begin); ++begin) {
+    place += groups_->size(item_of(entries[begin]));
+  }
+  while (begin < end) {
+    std::size_t next = begin + 1;
+    std::size_t cells = groups_->size(item_of(entries[begin]));
+    for (; !is_cut_before(next); ++next) cells += groups_->size(item_of(entries[next]));
+    if (next == begin + 1) {
+      write_group(item_of(entries[begin]), place, frame);
+    } else {
+      write_run(entries.subspan(begin, next - begin), place, frame);
+    }
+    begin = next;
+    place += cells;
   }
 }
 
-// A cell that hides another one does so along a ray through cells of powers in between: they are in
-// the run too, so its relations across faces, and across gaps those of the exact powers, are
-// enough.
-void PowerSorter::order_run(const Run& run, const View& view, Order& order) const {
-  const std::size_t n = run.end - run.begin;
-  std::vector<std::uint32_t> cells(n);
-  for (std::size_t i = 0; i < n; ++i) cells[i] = entries_[run.begin + i].cell;
-  std::sort(cells.begin(), cells.end());
-  const auto number = [&](std::uint32_t cell) {
-    const auto place = std::lower_bound(cells.begin(), cells.end(), cell);
-    return place != cells.end() && *place == cell ? static_cast<std::size_t>(place - cells.begin())
-                                                  : n;
+// By powers in double, cut wherever all before are certain to be farther than all after.
+void PowerSorter::write_run(Entries run, std::size_t place, Frame& frame) {
+  struct Bounded {
+    double low;
+    double high;
+    std::uint32_t group;
   };
-  std::vector<std::vector<std::uint32_t>> fronts(n);
+  std::vector<Bounded> groups;
+  groups.reserve(run.size());
+  for (const KeyedItem entry : run) {
+    const PowerSphere& sphere = spheres_[item_of(entry)];
+    const double power = frame.power.of(sphere);
+    const double doubt = frame.power.doubt(sphere);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const bool is_known = std::isfinite(power) && std::isfinite(doubt);
+    groups.push_back({is_known ? power - doubt : -kInfinity, is_known ? power + doubt : kInfinity,
+                      item_of(entry)});
+  }
+  std::sort(groups.begin(), groups.end(), [](const Bounded& a, const Bounded& b) {
+    return a.high != b.high ? a.high > b.high : a.group < b.group;
+  });
+  std::vector<std::uint32_t> tied;
+  for (std::size_t begin = 0; begin < groups.size();) {
+    double lowest = std::numeric_limits<double>::infinity();
+    std::size_t cells = 0;
+    std::size_t end = begin;
+    tied.clear();
+    while (end < groups.size() && (end == begin || groups[end].high >= lowest)) {
+      lowest = std::min(lowest, groups[end].low);
+      tied.push_back(groups[end].group);
+      cells += groups_->size(groups[end].group);
+      ++end;
+    }
+    if (tied.size() == 1) {
+      write_group(tied.front(), place, frame);
+    } else {
+      write_by_faces(tied, place, frame);
+    }
+    begin = end;
+    place += cells;
+  }
+}
+
+// Across gaps of the mesh, by the exact powers of groups: cells of equal ones hide each other at
+// faces only. Between cells of unlike powers stands a node of its own, so that the relations are
+// not as many as pairs.
+void PowerSorter::relate_across_gaps(std::span<const std::uint32_t> cells, const View& view,
+                                     std::size_t& nodes, std::vector<Relation>& relations) const {
   std::vector<std::uint32_t> at_gaps;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const std::uint32_t cell : cells) {
+    const auto& neighbors = links_.adjacency.neighbors[cell];
+    if (std::find(neighbors.begin(), neighbors.end(), mesh::kNoCell) != neighbors.end()) {
+      at_gaps.push_back(cell);
+    }
+  }
+  if (at_gaps.size() < 2) return;
+  const auto number = [&](std::uint32_t cell) {
+    return static_cast<std::uint32_t>(std::lower_bound(cells.begin(), cells.end(), cell) -
+                                      cells.begin());
+  };
+  const auto levels = group_by_power(mesh_, at_gaps, weights_, view);
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+    const auto between = static_cast<std::uint32_t>(nodes++);
+    for (const std::uint32_t cell : levels[i]) relations.push_back({between, number(cell)});
+    for (const std::uint32_t cell : levels[i + 1]) relations.push_back({number(cell), between});
+  }
+}
+
+// A cell that hides another one does so along a ray through cells of powers in between: they are
+// among the groups too, so the relations across their faces, and across gaps, are enough.
+void PowerSorter::write_by_faces(std::span<const std::uint32_t> groups, std::size_t place,
+                                 Frame& frame) {
+  std::vector<std::uint32_t> cells;
+  for (const std::uint32_t group : groups) {
+    const auto some = groups_->cells(group);
+    cells.insert(cells.end(), some.begin(), some.end());
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<Relation> relations;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const mesh::Cell& c = mesh_.cells[cells[i]];
-    bool at_gap = false;
     for (std::size_t face = 0; face < 4; ++face) {
       const std::uint32_t neighbor = links_.adjacency.neighbors[cells[i]][face];
-      at_gap = at_gap || neighbor == mesh::kNoCell;
-      if (neighbor == mesh::kNoCell) continue;
-      const std::size_t j = number(neighbor);
-      if (j == n) continue;
+      if (neighbor == mesh::kNoCell || neighbor < cells[i]) continue;
+      const auto found = std::lower_bound(cells.begin() + i, cells.end(), neighbor);
+      if (found == cells.end() || *found != neighbor) continue;
       const auto vertex = [&](std::size_t k) -> const Vector3d& {
         return mesh_.points[c[static_cast<std::size_t>(mesh::kFaceVertices[face][k])]];
       };
-      if (eye_side(view, vertex(0), vertex(1), vertex(2)) > 0) {
-        fronts[i].push_back(static_cast<std::uint32_t>(j));
-      }
-    }
-    if (at_gap && !convex_) at_gaps.push_back(cells[i]);
-  }
-  if (at_gaps.size() > 1) {
-    // Between groups stands a node of its own, so that their relations are not as many as pairs.
-    const auto groups = group_by_power(mesh_, at_gaps, weights_, view);
-    for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
-      const auto between = static_cast<std::uint32_t>(fronts.size());
-      for (const std::uint32_t cell : groups[g]) fronts[number(cell)].push_back(between);
-      auto& next = fronts.emplace_back();
-      for (const std::uint32_t cell : groups[g + 1]) {
-        next.push_back(static_cast<std::uint32_t>(number(cell)));
-      }
+      const int side = eye_side(frame.view, vertex(0), vertex(1), vertex(2));
+      const auto j = static_cast<std::uint32_t>(found - cells.begin());
+      if (side > 0) relations.push_back({j, i});
+      if (side < 0) relations.push_back({i, j});
     }
   }
-  HidingGraph graph;
-  for (const auto& of_cell : fronts) {
-    graph.fronts.insert(graph.fronts.end(), of_cell.begin(), of_cell.end());
-    graph.offsets.push_back(static_cast<std::uint32_t>(graph.fronts.size()));
-  }
-  const ResolvedOrder resolved = resolve(graph, std::vector<double>(graph.size(), 0.0));
-  std::size_t place = links_.flat.size() + run.begin;
+  std::size_t nodes = cells.size();
+  if (!convex_) relate_across_gaps(cells, frame.view, nodes, relations);
+  const ResolvedOrder resolved =
+      resolve(make_graph(nodes, relations), std::vector<double>(nodes, 0.0));
   for (const std::uint32_t i : resolved.cells) {
-    if (i < n) order.cells[place++] = cells[i];
+    if (i < cells.size()) order_.cells[place++] = cells[i];
   }
   if (resolved.cycles == 0) return;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  order.cycles += resolved.cycles;
+  const std::lock_guard lock(frame.mutex);
+  order_.cycles += resolved.cycles;
   for (const std::uint32_t i : resolved.cyclic_cells) {
-    if (i < n) order.cyclic_cells.push_back(cells[i]);
+    if (i < cells.size()) order_.cyclic_cells.push_back(cells[i]);
   }
 }
 
-Order PowerSorter::sort(const View& view) {
-  Order order;
-  order.method = "power";
-  order.cells = links_.flat;
-  order.cells.resize(links_.flat.size() + links_.cells.size());
-  write_powers(view);
-  tbb::parallel_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.high != b.high ? a.high > b.high : a.cell < b.cell;
-  });
-  find_runs();
-  tbb::parallel_for(Range(0, runs_.size(), 64), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Run& run = runs_[i];
-      if (run.end - run.begin == 1) {
-        order.cells[links_.flat.size() + run.begin] = entries_[run.begin].cell;
-      } else {
-        order_run(run, view, order);
+const Order& PowerSorter::sort(const View& view) {
+  order_.cycles = 0;
+  order_.cyclic_cells.clear();
+  order_.cells.resize(links_.flat.size() + links_.cells.size());
+  std::copy(links_.flat.begin(), links_.flat.end(), order_.cells.begin());
+  const PowerOfEye power(view, middle_);
+  Frame frame{view, power, choose_keys(power), EyeSides(view, middle_, radius_), {}, {}};
+  const Entries entries = sort_groups(frame);
+  const Chunks chunks(entries.size());
+  std::vector<std::size_t> places(chunks.count + 1, links_.flat.size());
+  if (groups_->has_ties()) {
+    chunks.for_each([&](std::size_t chunk) {
+      std::size_t cells = 0;
+      for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+        cells += groups_->size(item_of(entries[i]));
       }
-    }
+      places[chunk + 1] = cells;
+    });
+    for (std::size_t i = 0; i < chunks.count; ++i) places[i + 1] += places[i];
+  } else {
+    for (std::size_t i = 0; i < chunks.count; ++i) places[i] += chunks.begin(i);
+  }
+  chunks.for_each([&](std::size_t chunk) {
+    write_chunk(entries, chunks.begin(chunk), chunks.end(chunk), places[chunk], frame);
   });
-  std::sort(order.cyclic_cells.begin(), order.cyclic_cells.end());
-  order.exact = order.cycles == 0;
-  return order;
+  std::sort(order_.cyclic_cells.begin(), order_.cyclic_cells.end());
+  order_.exact = order_.cycles == 0;
+  return order_;
 }
 
 }  // namespace tetraglass::sort

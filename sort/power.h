@@ -1,23 +1,34 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/tet_mesh.h"
 #include "sort/cell_links.h"
+#include "sort/face_planes.h"
+#include "sort/hiding_graph.h"
+#include "sort/key_sort.h"
 #include "sort/order.h"
+#include "sort/power_keys.h"
 #include "sort/power_spheres.h"
+#include "sort/sphere_groups.h"
 
 namespace tetraglass::sort {
 
 /// The order by the power of the eye with respect to the circumspheres, the largest first: exact
 /// for cells of a Delaunay triangulation, convex or not, and with weights for those of a regular
-/// one (Edelsbrunner 1990, "An acyclicity theorem for cell complexes in d dimension"). Powers are
-/// computed in double with bounds of their errors; runs of cells whose powers are not certain to
-/// differ (cells of one sphere, as in a grid, among them) are put in order by the faces between
-/// them, decided exactly, and across gaps of the mesh by powers in exact numbers. Cells without
-/// volume come first. Keeps what does not depend on the view (48 bytes per cell, and links).
+/// one (Edelsbrunner 1990, "An acyclicity theorem for cell complexes in d dimension"). Cells
+/// without volume come first.
+///
+/// Powers are sorted by keys of 32 bits. Where keys are too near to each other to be certain,
+/// powers in double with bounds of their errors decide; cells whose powers may be equal even so are
+/// put in order by the faces between them, decided exactly, and across gaps of the mesh by powers
+/// in exact numbers. Cells of one sphere that meet at faces, as those of a voxel, are sorted as
+/// one, and among themselves by their faces. Keeps what does not depend on the view (about 100
+/// bytes per cell).
 class PowerSorter {
  public:
   /// `cells` are indices into mesh.cells of cells with finite coordinates; only these are sorted.
@@ -27,32 +38,42 @@ class PowerSorter {
   PowerSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
               std::span<const double> weights = {});
 
-  /// Cost: n log n, in parallel.
-  [[nodiscard]] Order sort(const View& view);
+  /// Valid until the next call. Cost: linear, but n log n in cells of nearly equal power; in
+  /// parallel.
+  [[nodiscard]] const Order& sort(const View& view);
 
  private:
-  struct Entry {
-    double low;   // the power is at least this
-    double high;  // ... and at most this
-    std::uint32_t cell;
+  // What the sorting of one view needs, and the rings it finds.
+  struct Frame {
+    const View& view;
+    PowerOfEye power;
+    PowerKeys keys;
+    EyeSides sides;
+    std::vector<KeyRange> doubtful;
+    std::mutex mutex;
   };
-  struct Run {
-    std::size_t begin;
-    std::size_t end;
-  };
+  using Entries = std::span<const KeyedItem>;
 
-  void write_powers(const View& view);
-  void find_runs();
-  void order_run(const Run& run, const View& view, Order& order) const;
+  [[nodiscard]] PowerKeys choose_keys(const PowerOfEye& power) const;
+  Entries sort_groups(Frame& frame);
+  void write_chunk(Entries entries, std::size_t begin, std::size_t end, std::size_t place,
+                   Frame& frame);
+  void write_group(std::uint32_t group, std::size_t place, Frame& frame);
+  void write_run(Entries run, std::size_t place, Frame& frame);
+  void write_by_faces(std::span<const std::uint32_t> groups, std::size_t place, Frame& frame);
+  void relate_across_gaps(std::span<const std::uint32_t> cells, const View& view,
+                          std::size_t& nodes, std::vector<Relation>& relations) const;
 
   const mesh::TetMesh& mesh_;
   std::span<const double> weights_;
   CellLinks links_;
   Eigen::Vector3d middle_;
-  bool convex_ = false;  // no cell sees another one across a gap
-  std::vector<PowerSphere> spheres_;
-  std::vector<Entry> entries_;
-  std::vector<Run> runs_;
+  double radius_ = 0;
+  bool convex_ = false;               // no cell sees another one across a gap
+  std::vector<PowerSphere> spheres_;  // of each group
+  std::optional<SphereGroups> groups_;
+  KeySorter sorter_;
+  Order order_;
 };
 
 }  // namespace tetraglass::sort

@@ -175,8 +175,9 @@ class Examination {
         middle_(middle),
         tree_(mesh, links, weights) {}
 
-  // What is wrong with the i-th cell; empty if nothing.
-  [[nodiscard]] std::string examine(std::size_t i) const {
+  // What is wrong with the i-th cell; empty if nothing. Sets the bits of the faces across which the
+  // neighbour has its sphere.
+  [[nodiscard]] std::string examine(std::size_t i, std::uint8_t& ties) const {
     const std::uint32_t cell = links_.cells[i];
     for (std::size_t face = 0; face < 4; ++face) {
       const std::uint32_t neighbor = links_.adjacency.neighbors[cell][face];
@@ -185,8 +186,13 @@ class Examination {
           return fmt::format("beyond a boundary face of cell {} its circumsphere holds a point",
                              cell);
         }
-      } else if (neighbor > cell && conflict(cell, far_vertex(cell, neighbor)) > 0) {
-        return fmt::format("the circumsphere of cell {} holds a vertex of cell {}", cell, neighbor);
+      } else if (neighbor > cell) {
+        const int found = conflict(cell, far_vertex(cell, neighbor));
+        if (found > 0) {
+          return fmt::format("the circumsphere of cell {} holds a vertex of cell {}", cell,
+                             neighbor);
+        }
+        if (found == 0) ties = static_cast<std::uint8_t>(ties | 1U << face);
       }
     }
     return {};
@@ -297,27 +303,28 @@ std::vector<std::vector<std::uint32_t>> group_by_power(const mesh::TetMesh& mesh
   return groups;
 }
 
-std::string irregularity(const mesh::TetMesh& mesh, const CellLinks& links,
-                         std::span<const double> weights, const std::vector<PowerSphere>& spheres,
-                         const Vector3d& middle) {
+Regularity check_regularity(const mesh::TetMesh& mesh, const CellLinks& links,
+                            std::span<const double> weights,
+                            const std::vector<PowerSphere>& spheres, const Vector3d& middle) {
   const Examination examination(mesh, links, weights, spheres, middle);
   std::mutex mutex;
   std::atomic<std::size_t> first = std::numeric_limits<std::size_t>::max();
-  std::string reason;
+  Regularity result;
+  result.ties.assign(links.cells.size(), 0);
   tbb::parallel_for(Range(0, links.cells.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       if (first.load(std::memory_order_relaxed) < i) return;
-      const std::string found = examination.examine(i);
+      const std::string found = examination.examine(i, result.ties[i]);
       if (found.empty()) continue;
       const std::lock_guard lock(mutex);
       if (i < first) {
         first = i;
-        reason = found;
+        result.fault = found;
       }
       return;
     }
   });
-  return reason;
+  return result;
 }
 
 }  // namespace tetraglass::sort

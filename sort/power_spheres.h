@@ -36,16 +36,23 @@ struct PowerSphere {
     const mesh::TetMesh& mesh, std::span<const std::uint32_t> cells,
     std::span<const double> weights, const View& view);
 
-/// Why the cells are no part of a regular triangulation (without weights: of a Delaunay one) of
-/// their vertices, or an empty text if they are: so that one cell hides another one only if the eye
-/// has a smaller power with respect to its sphere, or an equal one and the cells have one sphere
-/// and are linked by faces. Decided exactly: no sphere is in conflict with the vertex across a
-/// face, nor with any vertex beyond a boundary face (where there are none such the spheres are free
+/// Whether cells are part of a regular triangulation (without weights: of a Delaunay one) of their
+/// vertices: so that one cell hides another one only if the eye has a smaller power with respect to
+/// its sphere, or an equal one and the cells have one sphere and are linked by faces.
+struct Regularity {
+  std::string fault;  ///< why they are not; empty if they are
+  /// Of each of links.cells, by a bit for each face to a neighbour of a higher number: whether the
+  /// neighbour has the same sphere.
+  std::vector<std::uint8_t> ties;
+};
+
+/// Decided exactly: no sphere is in conflict with the vertex across a face, nor is it with, nor
+/// does it touch, any vertex beyond a boundary face (where there are none such the spheres are free
 /// of conflicts altogether: on a straight way from a cell to a vertex its power falls from cell to
 /// cell). `spheres` are those of links.cells. In parallel.
-[[nodiscard]] std::string irregularity(const mesh::TetMesh& mesh, const CellLinks& links,
-                                       std::span<const double> weights,
-                                       const std::vector<PowerSphere>& spheres,
-                                       const Eigen::Vector3d& middle);
+[[nodiscard]] Regularity check_regularity(const mesh::TetMesh& mesh, const CellLinks& links,
+                                          std::span<const double> weights,
+                                          const std::vector<PowerSphere>& spheres,
+                                          const Eigen::Vector3d& middle);
 
 }  // namespace tetraglass::sort
