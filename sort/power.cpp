@@ -92,8 +92,7 @@ PowerSorter::Entries PowerSorter::sort_groups(Frame& frame) {
       const PowerSphere& sphere = spheres_[begin + i];
       const double power = frame.power.of(sphere);
       const double doubt = frame.power.doubt(sphere);
-      target[i] = keyed(std::isfinite(power) ? frame.keys.key(power) : 0,
-                        static_cast<std::uint32_t>(begin + i));
+      target[i] = keyed(std::isfinite(power) ? frame.keys.key(power) : 0, item_of_group(begin + i));
       if (!frame.keys.is_certain(doubt)) {
         const std::lock_guard lock(frame.mutex);
         frame.doubtful.push_back(doubtful_range(power, doubt));
@@ -103,6 +102,20 @@ PowerSorter::Entries PowerSorter::sort_groups(Frame& frame) {
   const Entries entries = sorter_.sort(spheres_.size(), write);
   join_overlapping(frame.doubtful);
   return entries;
+}
+
+// Where each group is one cell, cells are sorted right away: looking them up afterwards, in the
+// order of their depths, takes as long as sorting.
+std::uint32_t PowerSorter::item_of_group(std::size_t group) const {
+  return groups_->has_ties() ? static_cast<std::uint32_t>(group) : links_.cells[group];
+}
+std::uint32_t PowerSorter::group_of(KeyedItem entry) const {
+  if (groups_->has_ties()) return item_of(entry);
+  const auto place = std::lower_bound(links_.cells.begin(), links_.cells.end(), item_of(entry));
+  return static_cast<std::uint32_t>(place - links_.cells.begin());
+}
+std::size_t PowerSorter::count_cells(KeyedItem entry) const {
+  return groups_->has_ties() ? groups_->size(item_of(entry)) : 1;
 }
 
 void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& frame) {
@@ -118,21 +131,23 @@ void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& fra
 // the first one has its cells at `place`.
 void PowerSorter::write_chunk(Entries entries, std::size_t begin, std::size_t end,
                               std::size_t place, Frame& frame) {
+  CutFinder cuts(frame.doubtful);
   const auto is_cut_before = [&](std::size_t i) {
-    return i == 0 || i == entries.size() ||
-           is_cut(key_of(entries[i - 1]), key_of(entries[i]), frame.doubtful);
+    return i == 0 || i == entries.size() || cuts.is_cut(key_of(entries[i - 1]), key_of(entries[i]));
   };
   for (; begin < end && !is_cut_before(begin); ++begin) {
-    place += groups_->size(item_of(entries[begin]));
+    place += count_cells(entries[begin]);
   }
   while (begin < end) {
     std::size_t next = begin + 1;
-    std::size_t cells = groups_->size(item_of(entries[begin]));
-    for (; !is_cut_before(next); ++next) cells += groups_->size(item_of(entries[next]));
-    if (next == begin + 1) {
+    std::size_t cells = count_cells(entries[begin]);
+    for (; !is_cut_before(next); ++next) cells += count_cells(entries[next]);
+    if (next > begin + 1) {
+      write_run(entries.subspan(begin, next - begin), place, frame);
+    } else if (groups_->has_ties()) {
       write_group(item_of(entries[begin]), place, frame);
     } else {
-      write_run(entries.subspan(begin, next - begin), place, frame);
+      order_.cells[place] = item_of(entries[begin]);
     }
     begin = next;
     place += cells;
@@ -149,13 +164,14 @@ void PowerSorter::write_run(Entries run, std::size_t place, Frame& frame) {
   std::vector<Bounded> groups;
   groups.reserve(run.size());
   for (const KeyedItem entry : run) {
-    const PowerSphere& sphere = spheres_[item_of(entry)];
+    const std::uint32_t group = group_of(entry);
+    const PowerSphere& sphere = spheres_[group];
     const double power = frame.power.of(sphere);
     const double doubt = frame.power.doubt(sphere);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const bool is_known = std::isfinite(power) && std::isfinite(doubt);
-    groups.push_back({is_known ? power - doubt : -kInfinity, is_known ? power + doubt : kInfinity,
-                      item_of(entry)});
+    groups.push_back(
+        {is_known ? power - doubt : -kInfinity, is_known ? power + doubt : kInfinity, group});
   }
   std::sort(groups.begin(), groups.end(), [](const Bounded& a, const Bounded& b) {
     return a.high != b.high ? a.high > b.high : a.group < b.group;

@@ -56,6 +56,9 @@ class PowerSorter {
 
   [[nodiscard]] PowerKeys choose_keys(const PowerOfEye& power) const;
   Entries sort_groups(Frame& frame);
+  [[nodiscard]] std::uint32_t item_of_group(std::size_t group) const;
+  [[nodiscard]] std::uint32_t group_of(KeyedItem entry) const;
+  [[nodiscard]] std::size_t count_cells(KeyedItem entry) const;
   void write_chunk(Entries entries, std::size_t begin, std::size_t end, std::size_t place,
                    Frame& frame);
   void write_group(std::uint32_t group, std::size_t place, Frame& frame);

@@ -67,13 +67,4 @@ void join_overlapping(std::vector<KeyRange>& ranges) {
   ranges.resize(count);
 }
 
-bool is_cut(std::uint32_t before, std::uint32_t after, std::span<const KeyRange> doubtful) {
-  if (after - before < 2) return false;
-  if (doubtful.empty()) return true;
-  const auto next =
-      std::upper_bound(doubtful.begin(), doubtful.end(), before,
-                       [](std::uint32_t key, const KeyRange& range) { return key < range.low; });
-  return next == doubtful.begin() || std::prev(next)->high < after;
-}
-
 }  // namespace tetraglass::sort

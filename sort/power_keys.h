@@ -58,10 +58,23 @@ struct KeyRange {
 /// Joins ranges that overlap; the result is ascending.
 void join_overlapping(std::vector<KeyRange>& ranges);
 
-/// Whether, in the order of their keys, all entries up to one of key `before` are certain to be
-/// farther than all from the next one on, of key `after`: neither are the keys next to each other,
-/// nor does one of the `doubtful` ranges (which are disjoint and ascending) reach over the gap.
-[[nodiscard]] bool is_cut(std::uint32_t before, std::uint32_t after,
-                          std::span<const KeyRange> doubtful);
+/// Finds where entries in the order of their keys can be cut. `doubtful` ranges are disjoint and
+/// ascending.
+class CutFinder {
+ public:
+  explicit CutFinder(std::span<const KeyRange> doubtful) : doubtful_(doubtful) {}
+
+  /// Whether all entries up to one of key `before` are certain to be farther than all from the next
+  /// one on, of key `after`: neither are the keys next to each other, nor does a doubtful range
+  /// reach over the gap. From call to call `after` does not fall. Cost: constant on average.
+  [[nodiscard]] bool is_cut(std::uint32_t before, std::uint32_t after) {
+    while (next_ < doubtful_.size() && doubtful_[next_].high < after) ++next_;
+    return after - before >= 2 && (next_ == doubtful_.size() || doubtful_[next_].low > before);
+  }
+
+ private:
+  std::span<const KeyRange> doubtful_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace tetraglass::sort
