@@ -84,11 +84,16 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
     plan.reasons.push_back(fmt::format("order: none, mode {} does not depend on it", mode));
     return;
   }
+  // The layouts of 12 vertices would have to hold what the lists need in every frame.
+  plan.fragments_in_cycles = !request.sort && !has_faces12(plan.gl.layout);
+  const char* guarantee = plan.sort == SortMethod::centroid ? "approximate"
+                          : plan.sort == SortMethod::power  ? "exact"
+                          : plan.fragments_in_cycles
+                              ? "exact; fragments where cells hide each other in a ring"
+                              : "exact unless cells hide each other in a ring";
   plan.reasons.push_back(fmt::format(
-      "order: {}, {}; mode {} {}", to_string(plan.sort),
-      plan.sort == SortMethod::centroid ? "approximate"
-                                        : "exact unless cells hide each other in a ring",
-      mode, commutative ? "does not need it, it was asked for" : "blends cells back to front"));
+      "order: {}, {}; mode {} {}", to_string(plan.sort), guarantee, mode,
+      commutative ? "does not need it, it was asked for" : "blends cells back to front"));
 }
 
 void plan_linear(const Scene& scene, const Request& request, Plan& plan) {

@@ -37,6 +37,9 @@ struct Request {
 struct Plan {
   Projector projector = Projector::gl;
   SortMethod sort = SortMethod::none;
+  /// With mpvo: where cells hide each other in a ring, so that it is not exact, the frame is drawn
+  /// by `fragments` (gl, layout indexed).
+  bool fragments_in_cycles = false;
   Integrator integrator = Integrator::exact;
   ContextKind context = ContextKind::none;
   int table_n = 0;                   ///< 0: no table

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/errors.h"
@@ -149,22 +150,28 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   return program;
 }
 
-void CellProjector::order_cells(const Frame& frame, Stats& stats) {
-  if (!sorts_cells(plan_)) return;
+bool CellProjector::order_cells(const Frame& frame, Stats& stats) {
+  if (!sorts_cells(plan_)) return true;
   const base::Stopwatch clock;
   if (!sorter_) sorter_.emplace(plan_.sort, *scene_.mesh, scene_.drawable.cells);
-  sort::Order order = sorter_->sort(frame.view());
+  const sort::Order& order = sorter_->sort(frame.view());
   if (drawn_.size() < order.cells.size()) {
     // Sorted with the rest: what is not drawn still tells which of two others lies behind.
     std::vector<char> shows(scene_.mesh->cells.size(), 0);
     for (const std::uint32_t cell : drawn_) shows[cell] = 1;
-    std::erase_if(order.cells, [&](std::uint32_t cell) { return shows[cell] == 0; });
+    std::vector<std::uint32_t> cells;
+    cells.reserve(drawn_.size());
+    std::copy_if(order.cells.begin(), order.cells.end(), std::back_inserter(cells),
+                 [&](std::uint32_t cell) { return shows[cell] != 0; });
+    cells_->set_order(cells);
+  } else {
+    cells_->set_order(order.cells);
   }
-  cells_->set_order(order.cells);
   stats.sort_method = order.method;
   stats.sort_exact = order.exact;
   stats.cycles += order.cycles;
   stats.sort_ms += clock.milliseconds();
+  return order.exact;
 }
 
 void CellProjector::bind() const {
@@ -214,7 +221,7 @@ void CellProjector::draw_fragments(bool parallel, const ViewUniforms& view, cons
     stats.fragments += patch.fragments;
   }
   context_.gl().ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  stats.sort_method = to_string(plan_.sort);
+  stats.sort_method = to_string(SortMethod::fragments);
   stats.sort_exact = true;
 }
 
@@ -222,7 +229,7 @@ void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Til
                               const Target& target, Image& image, Stats& stats) {
   target.begin(empty_pixel(scene_), tile.width, tile.height);
   set_blending();
-  if (plan_.sort == SortMethod::fragments) {
+  if (by_fragments_) {
     draw_fragments(parallel, view, tile, stats);
   } else {
     const Program& shaders = program(parallel);
@@ -237,7 +244,8 @@ void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Til
 }
 
 Image CellProjector::draw(const Frame& frame, Stats& stats) {
-  order_cells(frame, stats);
+  const bool exact = order_cells(frame, stats);
+  by_fragments_ = plan_.sort == SortMethod::fragments || (plan_.fragments_in_cycles && !exact);
   const base::Stopwatch clock;
   stats.context = context_.description();
   Image image(frame.width(), frame.height());
@@ -248,7 +256,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     const Target target(context_, target_texel(scene_, plan_.gl.target),
                         draws_opaque_surfaces(scene_), width, height);
     bind();
-    if (plan_.sort == SortMethod::fragments && !(lists_ && lists_->hold(width, height))) {
+    if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
       lists_.emplace(context_, width, height, most_fragments_);
     }
     for (int y = 0; y < frame.height(); y += height) {

@@ -42,7 +42,8 @@ class CellProjector {
   /// `pass`: a `#define` of FragmentLists, or empty.
   [[nodiscard]] const Program& program(bool parallel, const std::string& pass = "");
   void make_tables(Stats& stats);
-  void order_cells(const Frame& frame, Stats& stats);
+  /// Whether the cells are in exact order, or need none.
+  bool order_cells(const Frame& frame, Stats& stats);
   void bind() const;
   void set_blending() const;
   void draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile, const Target& target,
@@ -63,6 +64,7 @@ class CellProjector {
   float table_length_ = 1;  // in normalized units
   FragmentCounter counter_;
   std::map<std::string, Program> programs_;  // by the purpose that they were made for
+  bool by_fragments_ = false;                // the frame
   std::optional<FragmentLists> lists_;
   std::optional<sort::CellSorter> sorter_;
 };

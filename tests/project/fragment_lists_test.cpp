@@ -106,6 +106,35 @@ TEST(FragmentLists, AreExactForCyclesAndOverlaps) {
   }
 }
 
+// Unless an order is asked for, the lists serve the views in which cells hide each other in a ring,
+// and only these.
+TEST(FragmentLists, AreForCyclesByDefault) {
+  const mesh::TetMesh mesh = mesh::make_sample("cycle");
+  Scene scene = tests::make_scene(mesh, Mode::full, tests::constant_medium({1, 0.5, 0.2}, 2), 64);
+  const auto context = gl::Context::create(ContextKind::osmesa);
+  Request request;
+  request.projector = Projector::gl;
+  Stats stats;
+  gl::CellProjector projector(*context, scene, plan(scene, request), stats);
+  for (const Eigen::Vector3d& direction :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0.1, 0.2)}) {
+    scene.camera = frame_camera(mesh::bounds(mesh), direction, Eigen::Vector3d::UnitY(), 30, 1);
+    scene.camera.parallel = true;
+    const bool in_rings = direction.x() == 0;
+    Stats drawn;
+    const Image image = projector.draw(Frame(scene.camera, 64, 64), drawn);
+    EXPECT_EQ(drawn.sort_method, in_rings ? "fragments" : "mpvo");
+    EXPECT_TRUE(drawn.sort_exact);
+    EXPECT_EQ(drawn.cycles, in_rings ? 2U : 0U);
+    EXPECT_LT(largest_difference(image, render_reference(scene, stats)), 1e-5);
+  }
+  request.sort = SortMethod::mpvo;
+  EXPECT_FALSE(plan(scene, request).fragments_in_cycles);
+  request.sort.reset();
+  request.gl.layout = Layout::faces12;
+  EXPECT_FALSE(plan(scene, request).fragments_in_cycles);
+}
+
 TEST(FragmentLists, SortTranslucentIsosurfaces) {
   const mesh::TetMesh mesh =
       tests::box({-1, -1, -1}, {1, 1, 1}, 6, 6, 6, [](const auto& p) { return p.norm(); });

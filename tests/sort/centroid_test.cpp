@@ -30,8 +30,8 @@ double depth(const mesh::TetMesh& mesh, std::uint32_t cell, const View& view) {
 
 // `order` holds exactly `cells`, and no cell is followed by one that is farther by more than
 // `slack`.
-void expect_sorted(const mesh::TetMesh& mesh, std::vector<std::uint32_t> cells, const View& view,
-                   const Order& order, double slack) {
+void expect_sorted(const mesh::TetMesh& mesh, const std::vector<std::uint32_t>& cells,
+                   const View& view, const Order& order, double slack) {
   EXPECT_EQ(order.method, "centroid");
   EXPECT_FALSE(order.exact);
   ASSERT_EQ(order.cells.size(), cells.size());
@@ -41,8 +41,9 @@ void expect_sorted(const mesh::TetMesh& mesh, std::vector<std::uint32_t> cells, 
   }
   std::vector<std::uint32_t> sorted = order.cells;
   std::sort(sorted.begin(), sorted.end());
-  std::sort(cells.begin(), cells.end());
-  ASSERT_EQ(sorted, cells);
+  std::vector<std::uint32_t> expected = cells;
+  std::sort(expected.begin(), expected.end());
+  ASSERT_EQ(sorted, expected);
 }
 
 TEST(Centroid, PutsTheFarthestFirst) {
