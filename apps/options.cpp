@@ -96,6 +96,13 @@ std::pair<int, int> parse_size(std::string_view text, std::string_view option) {
   return {width, height};
 }
 
+void check_side(int pixels, int samples) {
+  if (pixels > kLargestSide / samples) {
+    throw base::UsageError(fmt::format("{0} pixels of {1} x {1} samples each way are more than {2}",
+                                       pixels, samples, kLargestSide));
+  }
+}
+
 std::pair<double, double> parse_range(std::string_view text, std::string_view option) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (parts.size() != 2)

@@ -32,6 +32,9 @@ namespace tetraglass::apps {
 /// WxH.
 [[nodiscard]] std::pair<int, int> parse_size(std::string_view text, std::string_view option);
 
+/// Throws UsageError where so many samples of so many pixels are more than a picture can have.
+void check_side(int pixels, int samples);
+
 /// LO:HI, LO < HI or equal.
 [[nodiscard]] std::pair<double, double> parse_range(std::string_view text, std::string_view option);
 

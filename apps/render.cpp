@@ -133,6 +133,10 @@ void render(const RenderArguments& arguments) {
 
 void add_scene_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--size", a.size, "Pixels, WxH")->capture_default_str();
+  app->add_option("--region", a.region,
+                  "X,Y,W,H: draw only these pixels of the picture, from its top left corner");
+  app->add_option("--samples", a.samples,
+                  "Rays that share a pixel evenly: 1 (default), 4, 9, 16 ... (smooth edges)");
   app->add_option("--field", a.field,
                   "Point or cell field; NAME:x|y|z|magnitude or NAME:INDEX of one with components. "
                   "Default: the first scalar");

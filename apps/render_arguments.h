@@ -16,6 +16,8 @@ struct RenderArguments : CameraArguments {
   std::string input;
   std::vector<std::string> outputs;
   std::string size = "800x600";
+  std::string region;
+  std::string samples;
   std::string field;
   std::string mode = "full";
   std::string mip_of = "field";

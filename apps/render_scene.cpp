@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -88,6 +90,38 @@ std::vector<preint::Isosurface> make_isosurfaces(
   return surfaces;
 }
 
+/// Of a picture whose size is known.
+void set_sampling(const RenderArguments& arguments, project::Scene& scene) {
+  if (!arguments.samples.empty()) {
+    const int count = parse_count(arguments.samples, "--samples", 1);
+    const int side = static_cast<int>(std::lround(std::sqrt(count)));
+    if (side * side != count) {
+      throw base::UsageError(
+          fmt::format("--samples {} do not share a pixel evenly; the nearest that do are {} and {}",
+                      count, count > side * side ? side * side : (side - 1) * (side - 1),
+                      count > side * side ? (side + 1) * (side + 1) : side * side));
+    }
+    check_side(std::max(scene.width, scene.height), side);
+    scene.samples = side;
+  }
+  if (arguments.region.empty()) return;
+  std::array<int, 4> pixels{};
+  const std::vector<double> numbers = parse_numbers(arguments.region, "--region", 4, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const int limit = i % 2 == 0 ? scene.width : scene.height;
+    const double least = i < 2 ? 0 : 1;
+    if (!(numbers[i] >= least && numbers[i] <= limit) || numbers[i] != std::floor(numbers[i])) {
+      throw base::UsageError("--region needs X,Y,WIDTH,HEIGHT, whole pixels of the picture");
+    }
+    pixels[i] = static_cast<int>(numbers[i]);
+  }
+  if (pixels[0] + pixels[2] > scene.width || pixels[1] + pixels[3] > scene.height) {
+    throw base::UsageError(fmt::format("--region {} leaves the picture of {} x {} pixels",
+                                       arguments.region, scene.width, scene.height));
+  }
+  scene.region = project::Region{pixels[0], pixels[1], pixels[2], pixels[3]};
+}
+
 std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& arguments) {
   std::vector<project::ClipPlane> planes;
   for (const std::string& text : arguments.clip) {
@@ -155,6 +189,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   project::Scene scene;
   scene.mesh = &mesh;
   std::tie(scene.width, scene.height) = parse_size(arguments.size, "--size");
+  set_sampling(arguments, scene);
   scene.mode = parse_choice<Mode>(arguments.mode, "--mode",
                                   {{"full", Mode::full},
                                    {"emission", Mode::emission},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "base/errors.h"
@@ -80,11 +81,20 @@ Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direc
   return frame_camera(corners, direction, up, fov_degrees, aspect);
 }
 
-Frame::Frame(const Camera& camera, int width, int height)
-    : parallel_(camera.parallel), width_(width), height_(height), eye_(camera.eye) {
+Frame::Frame(const Camera& camera, int width, int height, const Region& region)
+    : parallel_(camera.parallel),
+      width_(width),
+      height_(height),
+      region_(region),
+      eye_(camera.eye) {
   const auto finite = [](const Eigen::Vector3d& v) { return v.array().isFinite().all(); };
   if (width < 1 || height < 1)
     throw base::UsageError("the picture needs at least one pixel each way");
+  if (region.width < 1 || region.height < 1 || region.x < 0 || region.y < 0 ||
+      region.x > width - region.width || region.y > height - region.height) {
+    throw base::UsageError("the region has no pixels or leaves the picture of " +
+                           std::to_string(width) + " x " + std::to_string(height) + " pixels");
+  }
   if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
     throw base::UsageError("the camera's eye, target and up must be finite numbers");
   }

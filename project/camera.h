@@ -32,25 +32,38 @@ struct Camera {
 [[nodiscard]] Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
                                   const Eigen::Vector3d& up, double fov_degrees, double aspect);
 
+/// A part of a picture, in pixels; (x, y) is its first pixel.
+struct Region {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
 /// The camera's axes and image plane, ready to map pixels to rays (DESIGN section 2, "Camera").
 /// Camera space: x right, y up, z *away* from the viewer (depth), origin at the eye.
 class Frame {
  public:
   /// Throws UsageError where eye and target coincide, up is parallel to the view, an angle is not
   /// in (0, 180), a size is not positive or a number not finite.
-  Frame(const Camera& camera, int width, int height);
+  Frame(const Camera& camera, int width, int height)
+      : Frame(camera, width, height, {0, 0, width, height}) {}
+
+  /// Of a part of the picture of this width and height: pixels are counted in the part. Throws
+  /// UsageError where it has no pixels or leaves the picture, too.
+  Frame(const Camera& camera, int width, int height, const Region& region);
 
   /// Image plane coordinates of the centre of pixel (x, y), at unit distance (perspective) or in
   /// world units (parallel).
   [[nodiscard]] Eigen::Vector2d image_plane(double x, double y) const {
-    return {(2 * (x + 0.5) / width_ - 1) * half_height_ * width_ / height_,
-            (1 - 2 * (y + 0.5) / height_) * half_height_};
+    return {(2 * (x + region_.x + 0.5) / width_ - 1) * half_height_ * width_ / height_,
+            (1 - 2 * (y + region_.y + 0.5) / height_) * half_height_};
   }
   /// The pixel position (x, y), fractional, whose centre has these image plane coordinates: inverse
   /// of `image_plane`.
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector2d& plane) const {
-    return {(plane.x() / (half_height_ * width_ / height_) + 1) * width_ / 2 - 0.5,
-            (1 - plane.y() / half_height_) * height_ / 2 - 0.5};
+    return {(plane.x() / (half_height_ * width_ / height_) + 1) * width_ / 2 - 0.5 - region_.x,
+            (1 - plane.y() / half_height_) * height_ / 2 - 0.5 - region_.y};
   }
   [[nodiscard]] Eigen::Vector3d to_camera(const Eigen::Vector3d& world) const {
     return axes_ * (world - eye_);
@@ -68,15 +81,22 @@ class Frame {
   [[nodiscard]] bool parallel() const { return parallel_; }
   [[nodiscard]] const Eigen::Matrix3d& axes() const { return axes_; }  ///< rows: right, up, away
   [[nodiscard]] const Eigen::Vector3d& eye() const { return eye_; }
-  [[nodiscard]] double half_height() const { return half_height_; }
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  /// The side of a pixel in the image plane.
+  [[nodiscard]] double pitch() const { return 2 * half_height_ / height_; }
+  /// The camera's axis in pixels, from the corner of the first one.
+  [[nodiscard]] Eigen::Vector2d middle() const {
+    return {0.5 * width_ - region_.x, 0.5 * height_ - region_.y};
+  }
+  /// Pixels of the part that is drawn.
+  [[nodiscard]] int width() const { return region_.width; }
+  [[nodiscard]] int height() const { return region_.height; }
   [[nodiscard]] sort::View view() const { return {parallel_, eye_, axes_.row(2).transpose()}; }
 
  private:
   bool parallel_;
-  int width_;
+  int width_;  // of the whole picture
   int height_;
+  Region region_;
   double half_height_;
   Eigen::Vector3d eye_;
   Eigen::Matrix3d axes_;

@@ -172,8 +172,8 @@ bool needs_gl(const Scene& scene, const Request& request) {
   const bool sorts_cells =
       request.sort == SortMethod::centroid || (request.sort == SortMethod::none && blends);
   const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
-  return request.context.has_value() || is_any_set(request.gl) || !scene.clip.empty() ||
-         sorts_cells || approximates || request.table_n != 0;
+  return request.context.has_value() || is_any_set(request.gl) || sorts_cells || approximates ||
+         request.table_n != 0;
 }
 
 void plan_projector(Plan& plan) {
@@ -211,9 +211,6 @@ Plan plan(const Scene& scene, const Request& request) {
         "--projector gl");
   }
   if (!scene.clip.empty()) {
-    if (plan.projector == Projector::cpu) {
-      throw base::UsageError("--projector cpu does not clip; use --projector gl");
-    }
     plan.reasons.push_back(fmt::format("clip: cells are cut at {} planes", scene.clip.size()));
   }
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
@@ -223,6 +220,10 @@ Plan plan(const Scene& scene, const Request& request) {
   }
   if (request.opaque_at && plan.projector != Projector::cpu) {
     throw base::UsageError("--opaque-at is for --projector cpu");
+  }
+  if (scene.samples > 1) {
+    plan.reasons.push_back(
+        fmt::format("samples: {0} x {0} rays share a pixel evenly", scene.samples));
   }
   plan_order(scene, request, plan);
   plan_integrator(scene, request, plan);

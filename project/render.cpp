@@ -5,8 +5,9 @@
 #include "project/reference/reference.h"
 
 namespace tetraglass::project {
+namespace {
 
-Image render(const Scene& scene, const Plan& plan, Stats& stats) {
+Image draw_samples(const Scene& scene, const Plan& plan, Stats& stats) {
   switch (plan.projector) {
     case Projector::gl:
       return render_gl(scene, plan, stats);
@@ -16,6 +17,28 @@ Image render(const Scene& scene, const Plan& plan, Stats& stats) {
       return render_reference(scene, stats);
   }
   return {};
+}
+
+/// Each pixel the mean of n x n samples.
+Image average(const Image& samples, int n) {
+  Image image(samples.width / n, samples.height / n);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 4; ++c) {
+        double sum = 0;
+        for (int i = 0; i < n * n; ++i) sum += samples.pixel(n * x + i % n, n * y + i / n)[c];
+        image.pixel(x, y)[c] = static_cast<float>(sum / (n * n));
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+Image render(const Scene& scene, const Plan& plan, Stats& stats) {
+  const Image samples = draw_samples(scene, plan, stats);
+  return scene.samples == 1 ? samples : average(samples, scene.samples);
 }
 
 }  // namespace tetraglass::project

@@ -4,6 +4,15 @@
 
 namespace tetraglass::project {
 
+Frame make_frame(const Scene& scene) {
+  const Region region = scene.region.value_or(Region{0, 0, scene.width, scene.height});
+  const int n = scene.samples;
+  return {scene.camera,
+          n * scene.width,
+          n * scene.height,
+          {n * region.x, n * region.y, n * region.width, n * region.height}};
+}
+
 std::string to_string(Mode mode) {
   switch (mode) {
     case Mode::full:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,12 @@ struct Scene {
   Camera camera;
   int width = 800;
   int height = 600;
+  std::optional<Region> region;  ///< the part of the picture that is drawn; else all of it
+  int samples = 1;               ///< each way: samples * samples rays share a pixel evenly
 };
+
+/// The rays of the scene's picture: a pixel for each sample.
+[[nodiscard]] Frame make_frame(const Scene& scene);
 
 [[nodiscard]] std::string to_string(Mode mode);
 [[nodiscard]] std::string to_string(Shading shading);

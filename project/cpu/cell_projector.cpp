@@ -43,6 +43,8 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   picture.cells = &cells_;
   picture.points = &points_;
   picture.projection = &projection;
+  picture.frame = &frame;
+  picture.clip = scene_.clip;
   picture.medium = medium_ ? &*medium_ : nullptr;
   picture.intervals = intervals_;
   picture.surfaces = surfaces_ ? &*surfaces_ : nullptr;

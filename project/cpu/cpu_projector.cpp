@@ -5,9 +5,8 @@
 namespace tetraglass::project {
 
 Image render_cpu(const Scene& scene, const Plan& plan, Stats& stats) {
-  const Frame frame(scene.camera, scene.width, scene.height);
   cpu::CellProjector projector(scene, plan);
-  return projector.draw(frame, stats);
+  return projector.draw(make_frame(scene), stats);
 }
 
 }  // namespace tetraglass::project

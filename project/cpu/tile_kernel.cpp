@@ -29,6 +29,8 @@ struct TileBuffers::Contents {
       hwy::AllocateAligned<float>(4 * kPixels);  // see BlockSums
   hwy::AlignedFreeUniquePtr<float[]> stretch = hwy::AllocateAligned<float>(kPixels);
 
+  hwy::AlignedFreeUniquePtr<float[]> clipped;  // near and far; only where there are clip planes
+
   /// Room for so many floats.
   float* records(std::size_t count) {
     if (count > record_count_) {
@@ -76,10 +78,11 @@ template <class Shader>
 std::uint64_t rasterize(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                         const TileBuffers::Contents& buffers, Shader& shader) {
   const float* stretch = buffers.stretch.get();
+  const float* clipped = picture.clip.empty() ? nullptr : buffers.clipped.get();
   if (picture.projection->perspective) {
-    return TileRaster<true, Shader>(picture, x, y, stretch, shader).draw(cells);
+    return TileRaster<true, Shader>(picture, x, y, stretch, clipped, shader).draw(cells);
   }
-  return TileRaster<false, Shader>(picture, x, y, stretch, shader).draw(cells);
+  return TileRaster<false, Shader>(picture, x, y, stretch, clipped, shader).draw(cells);
 }
 
 /// Modes that add up.
@@ -157,6 +160,12 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
                TileBuffers::Contents& buffers) {
   if (picture.projection->perspective) {
     fill_stretch(*picture.projection, x, y, picture.tile_size, buffers.stretch.get());
+  }
+  if (!picture.clip.empty()) {
+    if (!buffers.clipped) {
+      buffers.clipped = hwy::AllocateAligned<float>(2 * TileBuffers::Contents::kPixels);
+    }
+    fill_clipped(picture, x, y, buffers.clipped.get());
   }
   switch (picture.mode) {
     case Mode::thickness:

@@ -27,6 +27,8 @@ struct Picture {
   const DrawnCells* cells = nullptr;
   const ViewPoints* points = nullptr;
   const Projection* projection = nullptr;
+  const Frame* frame = nullptr;
+  std::span<const ClipPlane> clip;
   const Medium* medium = nullptr;            ///< null in modes that have no use for it
   std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium
   const Surfaces* surfaces = nullptr;        ///< null in modes other than iso

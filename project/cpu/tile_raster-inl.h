@@ -85,6 +85,21 @@ HWY_INLINE void fill_stretch(const Projection& projection, int tile_x, int tile_
   }
 }
 
+/// The part of the rays of a tile that clip planes keep, near and far of block by block.
+HWY_INLINE void fill_clipped(const Picture& picture, int tile_x, int tile_y, float* depths) {
+  for (int y = 0; y < picture.tile_size; ++y) {
+    for (int x = 0; x < picture.tile_size; ++x) {
+      const int block = y / kBlockHeight * (picture.tile_size / kBlockWidth) + x / kBlockWidth;
+      const int lane = (y % kBlockHeight) * kBlockWidth + x % kBlockWidth;
+      const ClippedDepths kept =
+          clipped_depths(picture.clip, *picture.frame, *picture.projection, tile_x + x, tile_y + y);
+      float* place = depths + 2 * static_cast<std::size_t>(block) * kLanes + lane;
+      place[0] = kept.near;
+      place[kLanes] = kept.far;
+    }
+  }
+}
+
 /// The faces of a cell, front faces first, by the bits of the front faces.
 inline constexpr auto kFrontToBack = [] {
   std::array<std::array<std::uint8_t, 4>, 16> orders{};
@@ -109,14 +124,17 @@ inline constexpr auto kFrontToBack = [] {
 template <bool kPerspective, class Shader>
 class TileRaster {
  public:
-  /// `stretch`: from fill_stretch (perspective only).
-  TileRaster(const Picture& picture, int tile_x, int tile_y, const float* stretch, Shader& shader)
+  /// `stretch`: from fill_stretch (perspective only). `clipped`: from fill_clipped, null where
+  /// nothing is clipped.
+  TileRaster(const Picture& picture, int tile_x, int tile_y, const float* stretch,
+             const float* clipped, Shader& shader)
       : picture_(picture),
         shader_(shader),
         tile_x_(tile_x),
         tile_y_(tile_y),
         tile_size_(picture.tile_size),
         stretch_(stretch),
+        clipped_(clipped),
         in_block_x_(lane_offsets(false)),
         in_block_y_(lane_offsets(true)) {}
 
@@ -326,12 +344,35 @@ class TileRaster {
           s.back = hn::IfThenElse(hn::Eq(s.exit, exit2), v[2], s.back);
           if constexpr (kFaces == 5) s.back = hn::IfThenElse(hn::Eq(s.exit, p[4]), v[4], s.back);
         }
+        if (HWY_UNLIKELY(clipped_ != nullptr)) {
+          covered = clip(block, covered, s);
+          if (hn::AllFalse(FloatTag(), covered)) continue;
+        }
         finish(block, s);
         segments += hn::CountTrue(FloatTag(), covered);
         shader_.add(block, covered, s);
       }
     }
     segments_ += segments;
+  }
+
+  /// Cuts segments; returns the lanes where something is left. Depths, and values as the faces have
+  /// them, are linear along each ray.
+  HWY_NOINLINE Lanes clip(std::size_t block, Lanes covered, BlockSegments& s) const {
+    const float* kept = clipped_ + 2 * block * kLanes;
+    const Float entry = hn::Max(s.entry, hn::Load(FloatTag(), kept));
+    const Float exit = hn::Min(s.exit, hn::Load(FloatTag(), kept + kLanes));
+    const Lanes left = hn::And(covered, hn::Lt(entry, exit));
+    if constexpr (Shader::kValues) {
+      const Float inverse = hn::Div(set(1), hn::IfThenElse(left, hn::Sub(s.exit, s.entry), set(1)));
+      const Float rise = hn::Mul(hn::Sub(s.back, s.front), inverse);
+      // From the exit: a segment that starts at the eye starts with numbers beyond measure.
+      s.front = hn::MulAdd(rise, hn::Sub(entry, s.exit), s.back);
+      s.back = hn::MulAdd(rise, hn::Sub(exit, s.exit), s.back);
+    }
+    s.entry = entry;
+    s.exit = exit;
+    return left;
   }
 
   /// Lengths, and in perspective values, from what is linear over the picture.
@@ -369,6 +410,7 @@ class TileRaster {
   int tile_y_;
   int tile_size_;
   const float* stretch_;
+  const float* clipped_;
   Float in_block_x_;
   Float in_block_y_;
   FaceBatch batch_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -12,9 +13,9 @@ namespace tetraglass::project::cpu {
 Projection::Projection(const Frame& frame, double unit, const Eigen::Vector3d& middle)
     : perspective(!frame.parallel()),
       radius(unit),
-      focal(frame.height() / (2 * frame.half_height())),
-      center_x(0.5 * frame.width() - 0.5),
-      center_y(0.5 * frame.height() - 0.5),
+      focal(1 / frame.pitch()),
+      center_x(frame.middle().x() - 0.5),
+      center_y(frame.middle().y() - 0.5),
       axes(frame.axes()),
       depth_offset(frame.parallel() ? frame.to_camera(middle).z() : 0),
       middle_depth(std::max(1.0, frame.to_camera(middle).z() / unit)) {}
@@ -42,6 +43,20 @@ void ViewPoints::project(const mesh::TetMesh& mesh, const DrawnCells& cells, con
                    static_cast<float>(distance), in_front ? 1.0F : 0.0F};
     }
   });
+}
+
+ClippedDepths clipped_depths(std::span<const ClipPlane> planes, const Frame& frame,
+                             const Projection& projection, int x, int y) {
+  const DepthRange kept = clipped_ray(planes, frame, frame.image_plane(x, y));
+  const auto depth = [&](double z) {
+    if (!projection.perspective) return (z - projection.depth_offset) / projection.radius;
+    // Behind the eye is nothing.
+    if (!(z > 0)) return -std::numeric_limits<double>::infinity();
+    return 1 - projection.middle_depth * projection.radius / z;
+  };
+  // Far outside of the mesh a depth only has to stay there.
+  const auto rounded = [](double d) { return static_cast<float>(std::clamp(d, -1e30, 1e30)); };
+  return {rounded(depth(kept.near)), rounded(depth(kept.far))};
 }
 
 double value_at_eye(const mesh::Cell& cell, const ViewPoints& points) {

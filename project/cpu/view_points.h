@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "project/camera.h"
+#include "project/clip.h"
 #include "project/cpu/drawn_cells.h"
 
 namespace tetraglass::project::cpu {
@@ -51,6 +53,15 @@ struct ViewPoints {
   void project(const mesh::TetMesh& mesh, const DrawnCells& cells, const Frame& frame,
                const Projection& projection);
 };
+
+/// The part of the rays through pixels that clip planes keep, in the depths of FaceBatch: of the
+/// pixel (x, y). Nothing where near >= far.
+struct ClippedDepths {
+  float near;
+  float far;
+};
+[[nodiscard]] ClippedDepths clipped_depths(std::span<const ClipPlane> planes, const Frame& frame,
+                                           const Projection& projection, int x, int y);
 
 /// The field at the eye of a perspective view, inside the cell of these vertices.
 [[nodiscard]] double value_at_eye(const mesh::Cell& cell, const ViewPoints& points);

@@ -5,11 +5,11 @@
 namespace tetraglass::project {
 
 Image render_gl(const Scene& scene, const Plan& plan, Stats& stats) {
-  const Frame frame(scene.camera, scene.width, scene.height);
+  const Frame frame = make_frame(scene);
   const std::unique_ptr<gl::Context> context = gl::Context::create(plan.context);
   if (scene.drawable.cells.empty()) {
     stats.context = context->description();
-    return {scene.width, scene.height};
+    return {frame.width(), frame.height()};
   }
   gl::CellProjector projector(*context, scene, plan, stats);
   return projector.draw(frame, stats);

@@ -12,8 +12,8 @@ ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalizatio
     : parallel_(frame.parallel()),
       axes_(frame.axes()),
       origin_(frame.to_camera(normalization.center) / normalization.radius),
-      pitch_(2 * frame.half_height() / frame.height()),
-      middle_(0.5 * frame.width(), 0.5 * frame.height()),
+      pitch_(frame.pitch()),
+      middle_(frame.middle()),
       focus_(origin_.z()),
       nearest_depth_(origin_.z() - 1),
       farthest_depth_(origin_.z() + 1) {

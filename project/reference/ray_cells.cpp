@@ -38,9 +38,9 @@ struct Range {
 
 RayCells::RayCells(const Scene& scene)
     : scene_(scene),
-      frame_(scene.camera, scene.width, scene.height),
-      tiles_x_((scene.width + kTile - 1) / kTile),
-      tiles_y_((scene.height + kTile - 1) / kTile) {
+      frame_(make_frame(scene)),
+      tiles_x_((frame_.width() + kTile - 1) / kTile),
+      tiles_y_((frame_.height() + kTile - 1) / kTile) {
   points_.reserve(scene.mesh->points.size());
   for (const Eigen::Vector3d& point : scene.mesh->points)
     points_.push_back(frame_.to_camera(point));

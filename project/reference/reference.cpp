@@ -31,6 +31,8 @@ class Tracer {
     if (scene.shading == Shading::flat) gradients_ = mesh::cell_gradients(*scene.mesh, scene.field);
   }
 
+  [[nodiscard]] const Frame& frame() const { return cells_.frame(); }
+
   /// The color of pixel (x, y); `segments` is scratch space and holds the ray's segments
   /// afterwards.
   [[nodiscard]] Rgba trace(int x, int y, std::vector<RaySegment>& segments) const {
@@ -176,14 +178,15 @@ class Tracer {
 Image render_reference(const Scene& scene, Stats& stats) {
   const base::Stopwatch clock;
   const Tracer tracer(scene);
-  Image image(scene.width, scene.height);
+  const Frame& frame = tracer.frame();
+  Image image(frame.width(), frame.height());
   std::atomic<std::uint64_t> fragments{0};
-  base::Progress progress("reference", static_cast<std::uint64_t>(scene.height));
+  base::Progress progress("reference", static_cast<std::uint64_t>(frame.height()));
   tbb::enumerable_thread_specific<std::vector<RaySegment>> scratch;
-  tbb::parallel_for(0, scene.height, [&](int y) {
+  tbb::parallel_for(0, frame.height(), [&](int y) {
     std::vector<RaySegment>& segments = scratch.local();
     std::uint64_t row_fragments = 0;
-    for (int x = 0; x < scene.width; ++x) {
+    for (int x = 0; x < frame.width(); ++x) {
       Eigen::Map<Eigen::Array4f>(image.pixel(x, y)) = tracer.trace(x, y, segments).cast<float>();
       row_fragments += segments.size();
     }
@@ -205,7 +208,13 @@ std::vector<Eigen::Array4d> reference_pixels(const Scene& scene,
   base::Progress progress("verify", pixels.size());
   tbb::enumerable_thread_specific<std::vector<RaySegment>> scratch;
   tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
-    result[i] = tracer.trace(pixels[i].x(), pixels[i].y(), scratch.local());
+    const int n = scene.samples;
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    for (int sample = 0; sample < n * n; ++sample) {
+      sum += tracer.trace(n * pixels[i].x() + sample % n, n * pixels[i].y() + sample / n,
+                          scratch.local());
+    }
+    result[i] = sum / (n * n);
     progress.advance();
   });
   return result;

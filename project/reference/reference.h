@@ -15,10 +15,10 @@ namespace tetraglass::project {
 /// cells that a ray can meet, exact order, segments integrated to 1e-12 (preint::integrate_full).
 /// Decides with exact predicates which faces a ray meets; rays through edges and vertices are
 /// decided as if moved by an infinitesimal step to the right and up, so neighbouring cells never
-/// disagree.
+/// disagree. A pixel for each sample.
 [[nodiscard]] Image render_reference(const Scene& scene, Stats& stats);
 
-/// The same for single pixels (x, y): RGBA each.
+/// Single pixels (x, y) of the scene's picture: RGBA each, the mean of their samples.
 [[nodiscard]] std::vector<Eigen::Array4d> reference_pixels(const Scene& scene,
                                                            std::span<const Eigen::Vector2i> pixels);
 

@@ -376,5 +376,27 @@ TEST_F(CommandLine, BluntFinHasThePapersCells) {
       std::all_of(image.rgba.begin(), image.rgba.end(), [](float v) { return std::isfinite(v); }));
 }
 
+TEST_F(CommandLine, RegionsAndSamples) {
+  const std::string render = "render " + sphere() + " --mode thickness --size 40x30 -o ";
+  const std::string whole = output_.file("whole.npy");
+  const std::string part = output_.file("part.npy");
+  ASSERT_EQ(run_program(render + whole).status, 0);
+  ASSERT_EQ(run_program(render + part + " --region 10,5,20,15").status, 0);
+  const project::Image all = project::read_image(whole).image;
+  const project::Image some = project::read_image(part).image;
+  ASSERT_EQ(some.width, 20);
+  ASSERT_EQ(some.height, 15);
+  EXPECT_NEAR(some.pixel(7, 3)[0], all.pixel(17, 8)[0], 1e-5);
+  const ProgramRun smooth = run_program(render + part + " --samples 4 --verify 50");
+  EXPECT_EQ(smooth.status, 0) << smooth.err;
+  EXPECT_EQ(project::read_image(part).image.width, 40);
+  expect_error(render + part + " --samples 5", 2, "4 and 9");
+  expect_error(render + part + " --samples 3", 2, "1 and 4");
+  expect_error(render + part + " --region 30,5,20,15", 2, "leaves the picture");
+  expect_error(render + part + " --region 1,2,3", 2, "--region");
+  expect_error(render + part + " --region 1,2,3,0", 2, "whole pixels");
+  expect_error("render " + sphere() + " --size 40000x10 --samples 4 -o " + part, 2, "65536");
+}
+
 }  // namespace
 }  // namespace tetraglass::tests

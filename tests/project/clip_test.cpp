@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "project/compare.h"
+#include "project/cpu/cpu_projector.h"
 #include "project/gl/gl_projector.h"
 #include "project/plan.h"
 #include "project/reference/reference.h"
@@ -27,7 +29,15 @@ Image draw(const Scene& scene, Projector projector, Layout layout = Layout::inde
   if (projector == Projector::gl) request.gl.layout = layout;
   const Plan how = plan(scene, request);
   Stats stats;
-  return projector == Projector::gl ? render_gl(scene, how, stats) : render_reference(scene, stats);
+  switch (projector) {
+    case Projector::gl:
+      return render_gl(scene, how, stats);
+    case Projector::cpu:
+      return render_cpu(scene, how, stats);
+    case Projector::reference:
+      break;
+  }
+  return render_reference(scene, stats);
 }
 
 class ClipTest : public testing::Test {
@@ -60,7 +70,7 @@ TEST_F(ClipTest, ThicknessIsTheChordOfWhatIsLeft) {
       wanted.clip = {{{2, 0, 0}, 0.6}, {{0, 0, -1}, 0.7}};
       if (inside) wanted.camera.eye = {0.6, 0.1, -1};
       const Frame frame(wanted.camera, wanted.width, wanted.height);
-      for (const Projector projector : {Projector::reference, Projector::gl}) {
+      for (const Projector projector : {Projector::reference, Projector::gl, Projector::cpu}) {
         const Image image = draw(wanted, projector);
         for (int y = 0; y < wanted.height; ++y) {
           for (int x = 0; x < wanted.width; ++x) {
@@ -86,12 +96,10 @@ TEST_F(ClipTest, CutsCellsAsTheReferenceDoes) {
             preint::TransferFunction({{-1.5, {0.9, 0.5, 0.2}, 0.0}, {1.5, {0.9, 0.5, 0.2}, 2.0}});
       }
       const Image expected = draw(wanted, Projector::reference);
-      const Image image = draw(wanted, Projector::gl);
-      double largest = 0;
-      for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-        largest = std::max(largest, std::abs(double{image.rgba[i]} - expected.rgba[i]));
-      }
-      EXPECT_LT(largest, 2e-4) << to_string(mode) << " parallel " << parallel;
+      EXPECT_LT(compare(draw(wanted, Projector::gl), expected).max, 2e-4)
+          << to_string(mode) << " parallel " << parallel;
+      EXPECT_LT(compare(draw(wanted, Projector::cpu), expected).max, 1e-5)
+          << to_string(mode) << " parallel " << parallel;
     }
   }
 }
@@ -106,6 +114,20 @@ TEST_F(ClipTest, WorksWithInterpolatedParameters) {
     bad += std::abs(image.rgba[i] - expected.rgba[i]) > 1e-2F ? 1 : 0;
   }
   EXPECT_LE(bad, 4) << "of 4096; silhouettes are rounded by the rasterizer";
+}
+
+// The eye's cell is cut where its values have grown beyond measure.
+TEST_F(ClipTest, CutsTheCellOfTheEye) {
+  for (const Mode mode : {Mode::full, Mode::emission, Mode::mip, Mode::thickness}) {
+    Scene wanted = scene(mode, false);
+    wanted.camera.eye = {0.61, 0.13, -1.05};
+    wanted.camera.target = {-0.2, 0.2, 0.4};
+    for (const double offset : {-1.0, -0.6, 0.1}) {
+      wanted.clip = {{{1, 0.2, -0.4}, offset}};
+      EXPECT_LT(compare(draw(wanted, Projector::cpu), draw(wanted, Projector::reference)).max, 1e-5)
+          << to_string(mode) << " offset " << offset;
+    }
+  }
 }
 
 // A half space and its complement hold all of it.
@@ -133,7 +155,7 @@ TEST_F(ClipTest, MayKeepAllOrNothing) {
     ASSERT_NEAR(all.rgba[i], whole.rgba[i], 2e-6);  // of up to 4.6, a few roundings apart
   }
   wanted.clip = {{{1, 0, 0}, -1e300}};
-  for (const Projector projector : {Projector::gl, Projector::reference}) {
+  for (const Projector projector : {Projector::gl, Projector::cpu, Projector::reference}) {
     const Image nothing = draw(wanted, projector);
     EXPECT_EQ(*std::max_element(nothing.rgba.begin(), nothing.rgba.end()), 0);
   }
