@@ -260,12 +260,14 @@ void compare(const std::string& name, const mesh::TetMesh& mesh, const std::stri
   all.push_back(
       own("gl (OSMesa), mpvo", std::make_shared<project::gl::CellProjector>(
                                    context, scene, project::plan(scene, request), stats)));
+  context.release();
   for (int frame = -1; frame < frames; ++frame) {  // the first one is not counted: set-up
     const project::Camera camera = camera_at(mesh, frame);
     for (Contender& contender : all) {
       const base::Stopwatch clock;
       contender.draw(camera);
       if (frame >= 0) contender.times.push_back(clock.milliseconds());
+      context.release();  // VTK makes its own current
     }
   }
   scene.camera = camera_at(mesh, frames - 1);

@@ -86,6 +86,12 @@ Context::~Context() {
   }
 }
 
+void Context::release() const {
+  if (current_context != this) return;
+  platform_->release();
+  current_context = nullptr;
+}
+
 void Context::make_current() const {
   if (current_context == this) return;
   if (current_context != nullptr) current_context->platform_->release();

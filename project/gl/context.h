@@ -34,6 +34,9 @@ class Context {
   /// Free of cost where it is current already.
   void make_current() const;
 
+  /// Not current any more: before others than this class make a context current on the thread.
+  void release() const;
+
   /// The table of functions; the context is made current first.
   [[nodiscard]] const Functions& gl() const;
 
