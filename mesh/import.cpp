@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "base/errors.h"
@@ -200,10 +201,36 @@ void order_fields(TetMesh& mesh) {
   });
 }
 
+double largest_volume(const TetMesh& mesh) {
+  double largest = 0;
+  for (const Cell& c : mesh.cells) {
+    const Eigen::Vector3d& a = mesh.points[c[0]];
+    const double volume =
+        (mesh.points[c[1]] - a).cross(mesh.points[c[2]] - a).dot(mesh.points[c[3]] - a) / 6;
+    largest = std::max(largest, volume);
+  }
+  return largest;
+}
+
+/// Mesh_3 bounds circumspheres, so a largest volume may be passed: then it is said by how much.
+void tell_largest(const TetMesh& mesh, const FillOptions& options,
+                  std::vector<std::string>& notes) {
+  if (!(options.max_volume > 0)) return;
+  const double largest = largest_volume(mesh);
+  notes.push_back(
+      fmt::format("the largest tetrahedron has a volume of {:.4g}{}", largest,
+                  largest > options.max_volume
+                      ? fmt::format(", more than the {:.4g} asked for", options.max_volume)
+                      : ""));
+}
+
 /// A surface that cannot be filled is told with what a repair has done to it before.
 TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std::string>& notes) {
-  const MeshData repaired =
-      options.repair ? repair_surface(data, options.largest_hole, notes) : MeshData();
+  MeshData repaired;
+  if (options.repair) {
+    repaired = repair_surface(data, options.largest_hole, notes);
+    repaired.marks = data.marks;
+  }
   const MeshData& surface = options.repair ? repaired : data;
   try {
     TetMesh mesh = options.tetrahedralizer == Tetrahedralizer::cgal
@@ -211,6 +238,7 @@ TetMesh fill(const MeshData& data, const ImportOptions& options, std::vector<std
                        : fill_surface(surface, notes, options.fill);
     carry_surface_fields(surface, mesh, notes);
     order_fields(mesh);
+    tell_largest(mesh, options.fill, notes);
     return mesh;
   } catch (const base::InputError& error) {
     if (!options.repair) throw base::InputError(std::string(error.what()) + "; try --repair");
@@ -246,6 +274,7 @@ TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& 
   if (options.regions) {
     TetMesh mesh = mesh_volume(data, *options.regions, notes, options.fill);
     order_fields(mesh);
+    tell_largest(mesh, options.fill, notes);
     return mesh;
   }
   const Kind kind = kind_of(report, may_be_points);

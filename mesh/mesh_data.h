@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,6 +69,16 @@ enum class CellType : std::uint8_t {
 /// 0 to 3: the dimension of a cell type; -1 if unknown.
 [[nodiscard]] int dimension(CellType type);
 
+/// What a boundary says of the regions within it, by a place in each.
+struct RegionMarks {
+  struct Region {
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    double attribute = 0;
+  };
+  std::vector<Eigen::Vector3d> holes;  ///< regions that are to be left empty
+  std::vector<Region> regions;
+};
+
 /// A mesh as a file has it: cells of any type, before decomposition into tetrahedra.
 struct MeshData {
   std::vector<Eigen::Vector3d> points;
@@ -77,7 +88,8 @@ struct MeshData {
   std::vector<std::uint32_t>
       connectivity;  ///< point indices; of a polyhedron: (faces, (n, n points) per face)
   std::vector<Field> fields;
-  std::vector<std::string> notes;  ///< what a reader had to leave out or assume, a line each
+  std::optional<RegionMarks> marks;  ///< of a boundary: all that it encloses is solid but the holes
+  std::vector<std::string> notes;    ///< what a reader had to leave out or assume, a line each
 
   [[nodiscard]] std::size_t cell_count() const { return types.size(); }
   [[nodiscard]] std::span<const std::uint32_t> cell(std::size_t i) const {

@@ -27,6 +27,7 @@ class MetaImageReader {
       std::initializer_list<std::string_view> keys) const;
   void place(Volume& volume) const;
   [[nodiscard]] ValueType value_type() const;
+  [[nodiscard]] std::vector<std::string> listed_files() const;
 
   std::string file_;
   std::string content_;
@@ -124,6 +125,19 @@ ValueType MetaImageReader::value_type() const {
   return found->type;
 }
 
+/// The lines that follow the head.
+std::vector<std::string> MetaImageReader::listed_files() const {
+  std::vector<std::string> names;
+  std::string_view rest = std::string_view(content_).substr(at_);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view name = trimmed(rest.substr(0, end));
+    if (!name.empty()) names.emplace_back(name);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return names;
+}
+
 Volume MetaImageReader::read() {
   read_header();
   Volume volume;
@@ -132,10 +146,9 @@ Volume MetaImageReader::read() {
   std::string other_file;
   std::string_view bytes = std::string_view(content_).substr(at_);
   const std::string_view data_file = header_.get({"ElementDataFile"});
-  if (data_file == "LIST" || data_file.find('%') != std::string_view::npos) {
-    header_.fail("its values are in several files, which is not read");
-  }
-  if (data_file != "LOCAL" && data_file != "Local" && data_file != "local") {
+  const bool is_listed = data_file.starts_with("LIST");
+  const bool several = is_listed || data_file.find('%') != std::string_view::npos;
+  if (!several && data_file != "LOCAL" && data_file != "Local" && data_file != "local") {
     other_file = content_of(header_.beside(data_file));
     bytes = other_file;
   }
@@ -151,6 +164,16 @@ Volume MetaImageReader::read() {
       header_.fail("'HeaderSize' is neither -1 nor a number of bytes");
     }
     skip = static_cast<std::int64_t>(size[0]);
+  }
+  if (several) {
+    if (packing != Packing::none || skip < 0) {
+      header_.fail(
+          "its values are in several files, which are read raw only, from a known byte on");
+    }
+    other_file = header_.joined(is_listed ? listed_files() : header_.numbered(data_file),
+                                static_cast<std::size_t>(skip));
+    bytes = other_file;
+    skip = 0;
   }
   if (packing == Packing::gzip && skip > 0) {  // the head of a packed file is not packed
     bytes.remove_prefix(std::min<std::size_t>(bytes.size(), static_cast<std::size_t>(skip)));

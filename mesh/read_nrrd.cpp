@@ -43,12 +43,14 @@ class NrrdReader {
   [[nodiscard]] ValueType value_type() const;
   [[nodiscard]] Packing packing() const;
   std::string_view data(std::string& other_file);
+  [[nodiscard]] std::string several_files(std::string_view name) const;
 
   std::string file_;
   std::string content_;
   std::size_t at_ = 0;
   VolumeHeader header_;
   std::vector<Axis> axes_;
+  std::vector<std::string> listed_;  ///< the files with the values, where they are told one by one
 };
 
 std::string lower(std::string_view text) {
@@ -79,8 +81,13 @@ void NrrdReader::read_header() {
     }
     // 'key:=value' is a remark of other programs.
     if (line.substr(colon + 1).starts_with('=')) continue;
-    header_.add(lower(trimmed(line.substr(0, colon))),
-                std::string(trimmed(line.substr(colon + 1))));
+    const std::string key = lower(trimmed(line.substr(0, colon)));
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    header_.add(key, std::string(value));
+    if ((key == "data file" || key == "datafile") && value.starts_with("LIST")) {
+      while (at_ < content_.size()) listed_.emplace_back(trimmed(take_line()));
+      std::erase(listed_, "");
+    }
   }
 }
 
@@ -259,14 +266,22 @@ Packing NrrdReader::packing() const {
   header_.fail(fmt::format("its encoding '{:.40}' is not read", name));
 }
 
-/// What follows the head, or the other file that it names, without the lines to skip.
+/// The values in the files that LIST or a pattern tells of; of unpacked ones, that is, from the
+/// first of their bytes on.
+std::string NrrdReader::several_files(std::string_view name) const {
+  if (packing() != Packing::none || header_.find({"line skip", "lineskip"}) ||
+      header_.find({"byte skip", "byteskip"})) {
+    header_.fail("its values are in several files, which are read raw and without skips only");
+  }
+  return header_.joined(name.starts_with("LIST") ? listed_ : header_.numbered(name), 0);
+}
+
+/// What follows the head, or the other files that it names, without the lines to skip.
 std::string_view NrrdReader::data(std::string& other_file) {
   std::string_view bytes = std::string_view(content_).substr(at_);
   if (const auto name = header_.find({"data file", "datafile"})) {
-    if (name->starts_with("LIST") || name->find('%') != std::string_view::npos) {
-      header_.fail("its values are in several files, which is not read");
-    }
-    other_file = content_of(header_.beside(*name));
+    const bool several = name->starts_with("LIST") || name->find('%') != std::string_view::npos;
+    other_file = several ? several_files(*name) : content_of(header_.beside(*name));
     bytes = other_file;
   }
   if (const auto skip = header_.find({"line skip", "lineskip"})) {

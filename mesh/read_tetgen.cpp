@@ -1,5 +1,6 @@
 #include "mesh/read_tetgen.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/errors.h"
 #include "mesh/file_name.h"
 #include "mesh/text_lines.h"
+#include "mesh/triangulate_facet.h"
 
 namespace tetraglass::mesh {
 namespace {
@@ -81,18 +83,22 @@ class BoundaryReader {
   MeshData read(const std::string& extension);
 
  private:
+  using Polygon = std::vector<std::uint32_t>;
+
   void read_facets();
   void read_polygons();
   void read_triangles();
-  void note_rest();
+  void read_marks();
+  [[nodiscard]] Eigen::Vector3d place() const;
   /// The polygon of the points from word `at` on; it may go on in the next lines.
-  void add_polygon(std::size_t at, std::size_t size);
+  Polygon read_polygon(std::size_t at, std::size_t size);
+  void add_facet(const std::vector<Polygon>& polygons, const std::vector<Eigen::Vector3d>& holes);
 
   std::string file_;
   TextLines lines_;
   MeshData mesh_;
   std::int64_t first_ = 0;
-  std::size_t segments_ = 0;
+  std::size_t loose_ = 0;  ///< facets that are points and segments alone
 };
 
 std::string node_file(const std::string& file) {
@@ -115,17 +121,17 @@ MeshData BoundaryReader::read(const std::string& extension) {
     read_triangles();
   } else {
     extension == ".poly" ? read_facets() : read_polygons();
-    note_rest();
+    read_marks();
   }
-  if (segments_ > 0) {
+  if (loose_ > 0) {
     mesh_.notes.push_back(
-        fmt::format("{} segments and points within facets are left out", segments_));
+        fmt::format("{} facets that are points or segments alone are left out", loose_));
   }
   return std::move(mesh_);
 }
 
-void BoundaryReader::add_polygon(std::size_t at, std::size_t size) {
-  std::vector<std::uint32_t> polygon;
+BoundaryReader::Polygon BoundaryReader::read_polygon(std::size_t at, std::size_t size) {
+  Polygon polygon;
   while (polygon.size() < size) {
     if (at == lines_.words().size()) {
       lines_.expect("the other points of a polygon");
@@ -133,13 +139,23 @@ void BoundaryReader::add_polygon(std::size_t at, std::size_t size) {
     }
     polygon.push_back(lines_.index(at++, mesh_.points.size(), first_));
   }
-  if (size < 3) {
-    ++segments_;
+  return polygon;
+}
+
+void BoundaryReader::add_facet(const std::vector<Polygon>& polygons,
+                               const std::vector<Eigen::Vector3d>& holes) {
+  if (std::ranges::all_of(polygons, [](const Polygon& polygon) { return polygon.size() < 3; })) {
+    ++loose_;
+  } else if (polygons.size() == 1 && polygons[0].size() == 3 && holes.empty()) {
+    mesh_.add_cell(CellType::triangle, polygons[0]);
   } else {
-    const CellType type = size == 3   ? CellType::triangle
-                          : size == 4 ? CellType::quad
-                                      : CellType::polygon;
-    mesh_.add_cell(type, polygon);
+    try {
+      for (const auto& t : triangulate_facet(mesh_.points, polygons, holes)) {
+        mesh_.add_cell(CellType::triangle, t);
+      }
+    } catch (const base::InputError& error) {
+      lines_.fail(error.what());
+    }
   }
 }
 
@@ -149,18 +165,17 @@ void BoundaryReader::read_facets() {
   const std::size_t count = lines_.count(0, "facets");
   for (std::size_t i = 0; i < count; ++i) {
     lines_.expect(fmt::format("facet {} of {}", i + 1, count));
-    const std::size_t polygons = lines_.count(0, "polygons");
-    const std::size_t holes = lines_.words().size() > 1 ? lines_.count(1, "holes") : 0;
-    if (holes > 0) lines_.fail("facets with holes are not read; cut them into polygons without");
-    const std::size_t before = mesh_.cell_count();
-    for (std::size_t k = 0; k < polygons; ++k) {
+    std::vector<Polygon> polygons(lines_.count(0, "polygons"));
+    std::vector<Eigen::Vector3d> holes(lines_.words().size() > 1 ? lines_.count(1, "holes") : 0);
+    for (std::size_t k = 0; k < polygons.size(); ++k) {
       lines_.expect(fmt::format("polygon {} of facet {}", k + 1, i + 1));
-      add_polygon(1, lines_.count(0, "points"));
+      polygons[k] = read_polygon(1, lines_.count(0, "points"));
     }
-    // Its outline, and others that lie on it.
-    if (mesh_.cell_count() > before + 1) {
-      lines_.fail("facets of several polygons are not read; give each polygon a facet of its own");
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+      lines_.expect(fmt::format("hole {} of facet {}", k + 1, i + 1));
+      holes[k] = place();
     }
+    add_facet(polygons, holes);
   }
 }
 
@@ -169,7 +184,7 @@ void BoundaryReader::read_polygons() {
   const std::size_t count = lines_.count(0, "facets");
   for (std::size_t i = 0; i < count; ++i) {
     lines_.expect(fmt::format("facet {} of {}", i + 1, count));
-    add_polygon(1, lines_.count(0, "points"));
+    add_facet({read_polygon(1, lines_.count(0, "points"))}, {});
   }
 }
 
@@ -178,17 +193,36 @@ void BoundaryReader::read_triangles() {
   const std::size_t count = lines_.count(0, "faces");
   for (std::size_t i = 0; i < count; ++i) {
     lines_.expect(fmt::format("face {} of {}", i + 1, count));
-    add_polygon(1, 3);
+    add_facet({read_polygon(1, 3)}, {});
   }
 }
 
-void BoundaryReader::note_rest() {
+/// After the number of a hole or a region.
+Eigen::Vector3d BoundaryReader::place() const {
+  return {lines_.number(1), lines_.number(2), lines_.number(3)};
+}
+
+/// The places of holes and regions; both lists may be missing at the end of the file.
+void BoundaryReader::read_marks() {
+  RegionMarks& marks = mesh_.marks.emplace();
   if (!lines_.next()) return;
-  if (const std::size_t holes = lines_.count(0, "holes"); holes > 0) {
+  marks.holes.resize(lines_.count(0, "holes"));
+  for (std::size_t i = 0; i < marks.holes.size(); ++i) {
+    lines_.expect(fmt::format("hole {} of {}", i + 1, marks.holes.size()));
+    marks.holes[i] = place();
+  }
+  if (!lines_.next()) return;
+  marks.regions.resize(lines_.count(0, "regions"));
+  std::size_t bounded = 0;
+  for (std::size_t i = 0; i < marks.regions.size(); ++i) {
+    lines_.expect(fmt::format("region {} of {}", i + 1, marks.regions.size()));
+    const std::size_t words = lines_.words().size();
+    marks.regions[i] = {place(), words > 4 ? lines_.number(4) : static_cast<double>(i + 1)};
+    if (words > 5 && lines_.number(5) > 0) ++bounded;
+  }
+  if (bounded > 0) {
     mesh_.notes.push_back(
-        fmt::format("{} points that tell of holes are not used: what is a cavity is told by the "
-                    "direction of its faces",
-                    holes));
+        fmt::format("the largest volumes of {} regions are not used; give --max-volume", bounded));
   }
 }
 

@@ -30,13 +30,15 @@ struct FillOptions {
 /// another one is a cavity if its faces turn towards its inside, and part of the solid if they turn
 /// away from it; where the faces of a surface do not agree on a direction, shells that lie in an
 /// odd number of others are cavities. Where walls part the inside (edges of three triangles), all
-/// regions are solid. Regions with a place of `holes` in them are left empty. A solid of several
-/// regions gets the cell field `region`, numbered from 1. Points are added within (a regular
-/// lattice), and on the surface where its triangles are large for that, unless it is to be kept;
-/// fields are not carried over (surface_fields.h does). What was done is added to `notes`. Throws
-/// InputError for a surface that is open or intersects itself, with a diagnosis, or has no volume,
-/// and for a place of a hole outside the solid; UnavailableError in a build without TetGen. Source:
-/// Si 2015, "TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator".
+/// regions are solid. Where `data.marks` tell of regions all
+/// of them are solid but the holes. Regions with a place of `holes` in them are left empty. A solid
+/// of several regions gets the cell field `region`, numbered from 1, or as `data.marks` name them.
+/// Points are added within (a regular lattice), and on the surface where its triangles are large
+/// for that, unless it is to be kept; fields are not carried over (surface_fields.h does). What was
+/// done is added to `notes`. Throws InputError for a surface that is open or intersects itself,
+/// with a diagnosis, or has no volume, and for a place of a hole outside the solid;
+/// UnavailableError in a build without TetGen. Source: Si 2015, "TetGen, a Delaunay-Based Quality
+/// Tetrahedral Mesh Generator".
 [[nodiscard]] TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
                                    const FillOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -145,7 +146,8 @@ struct Filling {
 };
 
 /// Of each region, whether it is solid.
-std::map<int, bool> solid_regions(const TriangleSurface& surface, const Filling& filling) {
+std::map<int, bool> solid_regions(const TriangleSurface& surface, const Filling& filling,
+                                  bool all_solid) {
   // The centre of a region's largest tetrahedron is far enough from its walls for rounding.
   std::map<int, std::pair<double, std::size_t>> largest;
   for (std::size_t i = 0; i < filling.cells.size(); ++i) {
@@ -161,33 +163,64 @@ std::map<int, bool> solid_regions(const TriangleSurface& surface, const Filling&
   for (const auto& [region, entry] : largest) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     for (const std::uint32_t i : filling.cells[entry.second]) center += filling.points[i] / 4;
-    solid[region] = surface.inner_walls || is_solid(surface, center);
+    solid[region] = all_solid || surface.inner_walls || is_solid(surface, center);
   }
   return solid;
 }
 
-/// The region that a place of a hole lies in.
-int region_at(const Filling& filling, const Eigen::Vector3d& place) {
+/// The region that a place lies in.
+std::optional<int> region_at(const Filling& filling, const Eigen::Vector3d& place) {
   for (std::size_t i = 0; i < filling.cells.size(); ++i) {
     if (filling.contains(filling.cells[i], place)) return filling.regions[i];
   }
-  throw base::InputError(fmt::format("the place of a hole, ({:g}, {:g}, {:g}), lies outside",
-                                     place.x(), place.y(), place.z()));
+  return std::nullopt;
 }
 
-TetMesh solid_part(const TriangleSurface& surface, Filling filling,
-                   std::span<const Eigen::Vector3d> holes) {
+/// What is asked for, and what the surface says, of its regions.
+struct Marks {
+  std::span<const Eigen::Vector3d> holes;  ///< asked for
+  const RegionMarks* file = nullptr;       ///< of the surface
+};
+
+/// Of each solid region, its number: counted from 1, or what the file calls it (0 where it is not
+/// named).
+std::map<int, double> region_numbers(const TriangleSurface& surface, const Filling& filling,
+                                     const Marks& marks) {
+  std::map<int, bool> solid = solid_regions(surface, filling, marks.file != nullptr);
+  for (const Eigen::Vector3d& place : marks.holes) {
+    const auto region = region_at(filling, place);
+    if (!region) {
+      throw base::InputError(fmt::format("the place of a hole, ({:g}, {:g}, {:g}), lies outside",
+                                         place.x(), place.y(), place.z()));
+    }
+    solid[*region] = false;
+  }
+  if (marks.file != nullptr) {  // those outside of a surface in pieces are usual
+    for (const Eigen::Vector3d& place : marks.file->holes) {
+      if (const auto region = region_at(filling, place)) solid[*region] = false;
+    }
+  }
+  const bool is_named = marks.file != nullptr && !marks.file->regions.empty();
+  std::map<int, double> numbers;
+  for (const auto& [region, is_solid] : solid) {
+    if (is_solid) numbers.emplace(region, is_named ? 0.0 : static_cast<double>(numbers.size() + 1));
+  }
+  if (!is_named) return numbers;
+  for (const RegionMarks::Region& mark : marks.file->regions) {
+    const auto region = region_at(filling, mark.place);
+    const auto found = region ? numbers.find(*region) : numbers.end();
+    if (found != numbers.end()) found->second = mark.attribute;
+  }
+  return numbers;
+}
+
+TetMesh solid_part(const TriangleSurface& surface, Filling filling, const Marks& marks) {
   for (Cell& cell : filling.cells) {
     const auto [a, b, c, d] = cell;
     const std::vector<Eigen::Vector3d>& p = filling.points;
     if (orientation(p[a], p[b], p[c], p[d]) < 0) std::swap(cell[2], cell[3]);
   }
-  std::map<int, bool> solid = solid_regions(surface, filling);
-  for (const Eigen::Vector3d& place : holes) solid[region_at(filling, place)] = false;
-  std::map<int, int> numbers;  // of the solid regions
-  for (const auto& [region, is_solid] : solid) {
-    if (is_solid) numbers.emplace(region, static_cast<int>(numbers.size()) + 1);
-  }
+  const std::map<int, double> numbers = region_numbers(surface, filling, marks);
   TetMesh mesh;
   Field region{"region", Location::cell, 1, {}};
   constexpr std::uint32_t kUnused = 0xffffffffU;
@@ -206,7 +239,8 @@ TetMesh solid_part(const TriangleSurface& surface, Filling filling,
     }
     mesh.cells.push_back(cell);
   }
-  if (numbers.size() > 1) mesh.fields.push_back(std::move(region));
+  const bool is_named = marks.file != nullptr && !marks.file->regions.empty();
+  if (numbers.size() > 1 || is_named) mesh.fields.push_back(std::move(region));
   return mesh;
 }
 
@@ -239,8 +273,7 @@ std::string tetgen_parcel(const TriangleSurface& surface, std::span<const Eigen:
 /// ends the process where one of its assertions fails.
 std::optional<TetMesh> run_tetgen(const TriangleSurface& surface,
                                   std::span<const Eigen::Vector3d> inside,
-                                  const std::string& switches,
-                                  std::span<const Eigen::Vector3d> holes) {
+                                  const std::string& switches, const Marks& marks) {
   const Apart apart =
       run_apart([&] { return tetgen_parcel(surface, inside, switches); }, kMostSeconds, "TetGen");
   Parcel parcel(apart.result);
@@ -263,7 +296,7 @@ std::optional<TetMesh> run_tetgen(const TriangleSurface& surface,
     filling.regions.push_back(attributes > 0 ? static_cast<int>(regions[attributes * (i + 1) - 1])
                                              : 0);
   }
-  return solid_part(surface, std::move(filling), holes);
+  return solid_part(surface, std::move(filling), marks);
 }
 
 /// Whether the triangles are about as small as the tetrahedra that are wanted inside, or smaller.
@@ -280,9 +313,9 @@ bool is_fine(const TriangleSurface& surface, double volume_of_cell) {
   return surface_edge <= kFineEdges * cell_edge;
 }
 
-/// The volume of all regions that inner walls part.
-double volume_within_walls(const TriangleSurface& surface) {
-  const std::optional<TetMesh> mesh = run_tetgen(surface, {}, "pYAQ", {});
+/// The volume of all solid regions, where walls or marks tell of them.
+double volume_of_regions(const TriangleSurface& surface, const Marks& marks) {
+  const std::optional<TetMesh> mesh = run_tetgen(surface, {}, "pYAQ", marks);
   double volume = 0;
   if (!mesh) return volume;
   for (const Cell& c : mesh->cells) {
@@ -293,7 +326,7 @@ double volume_within_walls(const TriangleSurface& surface) {
   return volume;
 }
 
-void tell(const TriangleSurface& surface, const TetMesh& mesh, bool kept, double regions,
+void tell(const TriangleSurface& surface, const TetMesh& mesh, bool kept, std::size_t regions,
           std::vector<std::string>& notes) {
   notes.push_back(
       fmt::format("{} triangles in {} shells{}, filled by TetGen with {} points added{}",
@@ -309,8 +342,10 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
                      const FillOptions& options) {
   const TriangleSurface surface = triangle_surface(data, notes);
   check_embedded(surface);
-  const double volume =
-      surface.inner_walls ? volume_within_walls(surface) : std::abs(enclosed_volume(surface));
+  const Marks marks = {options.holes, data.marks ? &*data.marks : nullptr};
+  const double volume = surface.inner_walls || marks.file != nullptr
+                            ? volume_of_regions(surface, marks)
+                            : std::abs(enclosed_volume(surface));
   if (!(volume > 0)) throw base::InputError("the surface encloses no volume");
   const double largest =
       options.max_volume > 0 ? options.max_volume : kLargestOfMean * volume / options.cells;
@@ -326,10 +361,10 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
       fmt::format("q{}/{}a{:e}A", options.radius_edge_ratio, options.min_dihedral, largest);
   std::optional<TetMesh> mesh;
   bool kept = options.keep_surface || is_fine(surface, mean);
-  if (kept) mesh = run_tetgen(surface, inside, "pY" + quality, options.holes);
+  if (kept) mesh = run_tetgen(surface, inside, "pY" + quality, marks);
   if (!mesh && !options.keep_surface) {
     kept = false;
-    mesh = run_tetgen(surface, inside, "p" + quality, options.holes);
+    mesh = run_tetgen(surface, inside, "p" + quality, marks);
   }
   if (!mesh) {
     throw base::InputError(fmt::format(
@@ -337,8 +372,10 @@ TetMesh fill_surface(const MeshData& data, std::vector<std::string>& notes,
         options.keep_surface ? " where it is to be kept" : "", kMostSeconds));
   }
   if (mesh->cells.empty()) throw base::InputError("the surface encloses no volume");
-  const double regions =
-      mesh->fields.empty() ? 1 : *std::ranges::max_element(mesh->fields[0].values);
+  const std::size_t regions =
+      mesh->fields.empty()
+          ? 1
+          : std::set<double>(mesh->fields[0].values.begin(), mesh->fields[0].values.end()).size();
   tell(surface, *mesh, kept, regions, notes);
   return std::move(*mesh);
 }

@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "mesh/decompress.h"
+#include "mesh/file_name.h"
 #include "mesh/number_text.h"
 
 namespace tetraglass::mesh {
@@ -82,6 +83,53 @@ std::string VolumeHeader::beside(std::string_view name) const {
     fail(fmt::format("its values should be in the file {}, which is missing", other.string()));
   }
   return other.string();
+}
+
+std::vector<std::string> VolumeHeader::numbered(std::string_view value) const {
+  const std::vector<std::string_view> words = words_of(value);
+  constexpr std::string_view kDigits = "0123456789";
+  const std::string_view pattern = words.empty() ? std::string_view() : words[0];
+  const std::size_t start = std::min(pattern.find('%'), pattern.size());
+  const std::size_t end = std::min(pattern.find_first_not_of(kDigits, start + 1), pattern.size());
+  const std::string_view width =
+      pattern.substr(std::min(start + 1, end), end - std::min(start + 1, end));
+  constexpr std::size_t kWidest = 20;
+  const bool is_pattern = start < end && end < pattern.size() && width.size() <= 3 &&
+                          std::string_view("diu").find(pattern[end]) != std::string_view::npos &&
+                          pattern.find('%', end) == std::string_view::npos;
+  if (!is_pattern || words.size() < 4) {
+    fail(fmt::format("its values are in files '{:.60}': NAME%03d.EXTENSION MIN MAX STEP is needed",
+                     value));
+  }
+  const std::string range = fmt::format("{} {} {}", words[1], words[2], words[3]);
+  const std::vector<std::size_t> numbers = counts("data file", range, 0);
+  constexpr std::size_t kMost = 1'000'000;
+  if (numbers[2] == 0 || numbers[1] < numbers[0] ||
+      (numbers[1] - numbers[0]) / numbers[2] >= kMost) {
+    fail(fmt::format("the numbers of its files, '{:.60}', are no range", range));
+  }
+  std::size_t least = 0;
+  std::from_chars(width.data(), width.data() + width.size(), least);
+  least = std::min(least, kWidest);
+  const char filler = width.starts_with('0') ? '0' : ' ';
+  std::vector<std::string> names;
+  for (std::size_t i = numbers[0]; i <= numbers[1]; i += numbers[2]) {
+    std::string number = std::to_string(i);
+    if (number.size() < least) number.insert(0, least - number.size(), filler);
+    names.push_back(
+        fmt::format("{}{}{}", pattern.substr(0, start), number, pattern.substr(end + 1)));
+  }
+  return names;
+}
+
+std::string VolumeHeader::joined(const std::vector<std::string>& names, std::size_t skip) const {
+  std::string all;
+  for (const std::string& name : names) {
+    const std::string content = content_of(beside(name));
+    if (content.size() < skip) fail(fmt::format("its file {} ends within the bytes to skip", name));
+    all.append(content, skip);
+  }
+  return all;
 }
 
 void VolumeHeader::fail(const std::string& what) const {

@@ -37,6 +37,13 @@ class VolumeHeader {
   /// A file that is named by the value, beside this one. Throws ReadError where there is none.
   [[nodiscard]] std::string beside(std::string_view name) const;
 
+  /// The names that "PATTERN MIN MAX STEP" stands for, as in C: PATTERN has one %d, %i or %u, which
+  /// may have a width and zeros before it. Throws ReadError.
+  [[nodiscard]] std::vector<std::string> numbered(std::string_view value) const;
+  /// What the files beside this one hold, one after the other, each without its first `skip` bytes.
+  /// Throws ReadError where one is missing or is shorter.
+  [[nodiscard]] std::string joined(const std::vector<std::string>& names, std::size_t skip) const;
+
   /// Throws ReadError: "FILE: WHAT".
   [[noreturn]] void fail(const std::string& what) const;
 

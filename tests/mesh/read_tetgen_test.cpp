@@ -1,10 +1,13 @@
 #include "mesh/read_tetgen.h"
 
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "mesh/import.h"
+#include "support/meshes.h"
 #include "support/temporary_folder.h"
 
 namespace tetraglass::mesh {
@@ -70,6 +73,99 @@ TEST(ReadTetgen, TellsThatThePointsAreMissing) {
   tests::write_text(folder.file("a.ele"), "1 4\n0 0 1 2 3\n");
   EXPECT_THROW(static_cast<void>(read_tetgen(folder.file("a.ele"))), base::ReadError);
 }
+
+#if defined(TETRAGLASS_WITH_CGAL) && defined(TETRAGLASS_WITH_TETGEN)
+
+const std::string kOuterBox =
+    "1 0 0 0\n2 3 0 0\n3 3 3 0\n4 0 3 0\n5 0 0 1\n6 3 0 1\n7 3 3 1\n8 0 3 1\n";
+const std::string kInnerBox =
+    "9 1 1 0\n10 2 1 0\n11 2 2 0\n12 1 2 0\n13 1 1 1\n14 2 1 1\n15 2 2 1\n16 1 2 1\n";
+const std::string kOuterWalls = "1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 8\n";
+const std::string kInnerWalls =
+    "1\n4 9 10 14 13\n1\n4 10 11 15 14\n1\n4 11 12 16 15\n1\n4 12 9 13 16\n";
+
+double volume_of(const std::string& content, std::vector<double>* regions = nullptr) {
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder.file("a.poly"), content);
+  ImportOptions options;
+  options.fill.cells = 200;
+  const Import import = import_mesh(folder.file("a.poly"), options);
+  double sum = 0;
+  for (const Cell& cell : import.mesh.cells) sum += tests::volume(import.mesh, cell);
+  for (const Field& field : import.mesh.fields) {
+    if (field.name != "region" || regions == nullptr) continue;
+    *regions = field.values;
+    std::ranges::sort(*regions);
+    regions->erase(std::unique(regions->begin(), regions->end()), regions->end());
+  }
+  return sum;
+}
+
+TEST(ReadTetgen, FacetsWithHolesMakeATunnel) {
+  const std::string content = "16 3\n" + kOuterBox + kInnerBox +
+                              "10 0\n"
+                              "2 1\n4 1 2 3 4\n4 9 10 11 12\n1 1.5 1.5 0\n"
+                              "2 1\n4 5 6 7 8\n4 13 14\n15 16\n1 1.5 1.5 1\n" +
+                              kOuterWalls + kInnerWalls;
+  EXPECT_NEAR(volume_of(content + "0\n"), 8, 1e-9);
+  std::vector<double> regions;
+  EXPECT_NEAR(volume_of(content + "0\n1\n1 0.5 0.5 0.5 42 -1\n", &regions), 8, 1e-9);
+  EXPECT_EQ(regions, std::vector<double>{42});
+}
+
+TEST(ReadTetgen, PolygonsWithinFacetsPartRegions) {
+  // The column in the middle is walled off: solid with a name of its own, or a hole.
+  const std::string content = "16 3\n" + kOuterBox + kInnerBox +
+                              "10 0\n2 0\n4 1 2 3 4\n4 9 10 11 12\n"
+                              "2 0\n4 5 6 7 8\n4 13 14 15 16\n" +
+                              kOuterWalls + kInnerWalls;
+  std::vector<double> regions;
+  EXPECT_NEAR(volume_of(content + "0\n", &regions), 9, 1e-9);
+  EXPECT_EQ(regions, (std::vector<double>{1, 2}));
+  EXPECT_NEAR(volume_of(content + "1\n1 1.5 1.5 0.5\n"), 8, 1e-9);
+  EXPECT_NEAR(volume_of(content + "0\n2\n1 1.5 1.5 0.5 7 0\n2 0.5 0.5 0.5 -3 0\n", &regions), 9,
+              1e-9);
+  EXPECT_EQ(regions, (std::vector<double>{-3, 7}));
+}
+
+TEST(ReadTetgen, ShellsWithinAreSolidUnlessTheyAreHoles) {
+  std::string inner = kInnerBox;  // lifted off the outer faces
+  for (std::size_t at = 0; (at = inner.find(" 0\n", at)) != std::string::npos;) {
+    inner.replace(at, 3, " .3\n");
+  }
+  for (std::size_t at = 0; (at = inner.find(" 1\n", at)) != std::string::npos;) {
+    inner.replace(at, 3, " .7\n");
+  }
+  const std::string content = "16 3\n" + kOuterBox + inner +
+                              "12\n1\n4 1 2 3 4\n1\n4 5 6 7 8\n1\n4 9 10 11 12\n1\n4 13 14 15 "
+                              "16\n" +
+                              kOuterWalls + kInnerWalls;
+  EXPECT_NEAR(volume_of(content), 9, 1e-9);
+  EXPECT_NEAR(volume_of(content + "1\n1 1.5 1.5 0.5\n"), 8.6, 1e-9);
+}
+
+#endif
+
+#ifdef TETRAGLASS_WITH_CGAL
+
+TEST(ReadTetgen, FacetsThatCrossThemselvesAreRefused) {
+  const tests::TemporaryFolder folder;
+  const auto fails = [&](const std::string& facet) {
+    tests::write_text(folder.file("a.poly"),
+                      "8 3\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 "
+                      "0\n6 3 0 0\n7 nan 0 0\n8 .5 0 0\n1 0\n" +
+                          facet);
+    EXPECT_THROW(static_cast<void>(read_tetgen(folder.file("a.poly"))), base::ReadError) << facet;
+  };
+  fails("1\n4 1 3 2 4\n");              // a bow
+  fails("2\n4 1 2 3 4\n2 2 4\n2 1 3");  // ends early
+  fails("3\n4 1 2 3 4\n2 2 4\n2 1 3\n");
+  fails("1\n4 1 2 5 6\n");  // on a line
+  fails("1\n4 1 2 7 4\n");
+  fails("1 1\n4 1 2 3 4\n1 .5 .5 0\n");  // all of it is a hole
+}
+
+#endif
 
 }  // namespace
 }  // namespace tetraglass::mesh

@@ -243,6 +243,40 @@ TEST(ReadVolume, MetaImageThatLiesIsRefused) {
                  "missing");
 }
 
+TEST(ReadVolume, ValuesInSeveralFiles) {
+  const std::string raw = values<std::uint8_t>();
+  const std::size_t half = raw.size() / 2;
+  write("z08.raw", raw.substr(0, half));
+  write("z10.raw", raw.substr(half));
+  write("h08.raw", "head" + raw.substr(0, half));
+  write("h10.raw", "head" + raw.substr(half));
+  const std::string nrrd = kNrrd + "type: uchar\nencoding: raw\n";
+  expect_counting(read("a.nhdr", nrrd + "data file: LIST\nz08.raw\nz10.raw\n"));
+  expect_counting(read("a.nhdr", nrrd + "data file: z%02d.raw 8 10 2\n"));
+  expect_counting(read("a.nhdr", nrrd + "data file: z%02d.raw 8 10 2 2\n"));
+  const std::string meta = kMeta + "ElementType = MET_UCHAR\n";
+  expect_counting(read("a.mhd", meta + "ElementDataFile = LIST\nz08.raw\n\nz10.raw"));
+  expect_counting(read("a.mhd", meta + "HeaderSize = 4\nElementDataFile = h%02d.raw 8 10 2\n"));
+  const auto refused = [&](const std::string& files, const char* why) {
+    expect_refusal("a.nhdr", nrrd + "data file: " + files + "\n", why);
+  };
+  refused("LIST\nz08.raw\nz09.raw", "missing");
+  refused("LIST\nz08.raw", "is cut off");
+  refused("z%02d.raw 8 10 1", "missing");
+  refused("z%02d.raw 8 10 0", "no range");
+  refused("z%02d.raw 10 8 2", "no range");
+  refused("z%02d.raw 0 18446744073709551615 1", "no range");
+  refused("z%02d.raw -8 10 2", "whole numbers");
+  refused("z%02d.raw 8 10", "MIN MAX STEP");
+  refused("z%s.raw 8 10 2", "MIN MAX STEP");
+  refused("z%d%d.raw 8 10 2", "MIN MAX STEP");
+  refused("z%9999d.raw 8 10 2", "MIN MAX STEP");
+  refused("z% 8 10 2", "MIN MAX STEP");
+  expect_refusal("a.nhdr", nrrd + "byte skip: 4\ndata file: h%02d.raw 8 10 2\n", "without skips");
+  expect_refusal("a.mhd", meta + "HeaderSize = 16\nElementDataFile = h%02d.raw 8 10 2\n" + "",
+                 "cut off");
+}
+
 std::string inr_head(const std::string& type) {
   std::string head = "#INRIMAGE-4#{\nXDIM=5\nYDIM=3\nZDIM=2\nVDIM=1\n" + type +
                      "CPU=sun\nVX=1\nVY=2\nVZ=3\nTX=5\n";
