@@ -1,7 +1,12 @@
 #include "sort/key_sort.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "base/parallel.h"
 
 namespace tetraglass::sort {
 namespace {
@@ -70,6 +75,19 @@ void sort_bucket(std::span<KeyedItem> entries, std::span<KeyedItem> spare) {
 }
 
 }  // namespace
+
+Chunks::Chunks(std::size_t n) : total(n) {
+  constexpr std::size_t kLeast = 16384;
+  count = std::clamp(n / kLeast, std::size_t{1}, static_cast<std::size_t>(base::thread_count()));
+}
+
+void Chunks::for_each(const std::function<void(std::size_t)>& work) const {
+  if (count == 1) {
+    work(0);
+  } else {
+    tbb::parallel_for(std::size_t{0}, count, work, tbb::static_partitioner());
+  }
+}
 
 std::span<const KeyedItem> KeySorter::sort(std::size_t n, const Write& write, const Take& take) {
   constexpr std::size_t kBlock = 512;  // is still in the first cache when it is counted

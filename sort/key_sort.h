@@ -1,15 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace tetraglass::sort {
 
@@ -30,27 +26,14 @@ using KeyedItem = std::uint64_t;
 /// outweigh the start of a task.
 struct Chunks {
   std::size_t total;
-  std::size_t count;
+  std::size_t count = 1;
 
-  explicit Chunks(std::size_t n)
-      : total(n),
-        count(std::clamp(n / kLeast, std::size_t{1},
-                         static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()))) {}
+  explicit Chunks(std::size_t n);
   [[nodiscard]] std::size_t begin(std::size_t chunk) const { return total * chunk / count; }
   [[nodiscard]] std::size_t end(std::size_t chunk) const { return begin(chunk + 1); }
 
-  /// Calls f(chunk) for every chunk, in parallel if there are several.
-  template <typename F>
-  void for_each(const F& f) const {
-    if (count == 1) {
-      f(std::size_t{0});
-    } else {
-      tbb::parallel_for(std::size_t{0}, count, f, tbb::static_partitioner());
-    }
-  }
-
- private:
-  static constexpr std::size_t kLeast = 16384;
+  /// Calls work(chunk) for every chunk, in parallel if there are several.
+  void for_each(const std::function<void(std::size_t)>& work) const;
 };
 
 /// Sorts items by keys of 32 bits, the smallest first; items of equal keys stay in order. In
