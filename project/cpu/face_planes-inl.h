@@ -44,10 +44,19 @@ struct FaceBatch {
   /// Bit k: over a tile, face k changes so much that floats would round it by more than 2^-20 (of
   /// the mesh's half diagonal, of the field's range).
   std::array<std::uint8_t, kBatch> steep;
+  /// Not 0: the cell is so flat that floats cannot tell on which side of its silhouette a ray
+  /// passes.
+  std::array<std::uint8_t, kBatch> flat;
 };
 
 /// The slope per pixel above which a face is steep.
 inline constexpr double kSteep = 0.5;
+
+/// A cell is flat where, this far (in pixels) outside of its silhouette, its front faces may seem
+/// to lie before its back faces: depths of faces are rounded four times on their way through
+/// floats, by 2^-22 of their largest terms together.
+inline constexpr double kSilhouette = 0x1p-6;
+inline constexpr double kDepthRounding = 0x1p-22;
 
 /// Where a tile lies: what is to be added to homogeneous pixels (times z in perspective) to make
 /// them relative to its middle.
@@ -103,6 +112,7 @@ class FaceSetup {
       sign[i] = picture.cells->cells[cells[i]].mirrored ? -1.0 : 1.0;
       batch.front[i] = 0;
       batch.steep[i] = 0;
+      batch.flat[i] = 0;
     }
     const V even = hn::Load(kD, sign.data());
     const V odd = hn::Neg(even);
@@ -111,6 +121,7 @@ class FaceSetup {
     face(v[0], v[2], v[3], even, unit, 1, batch);
     face(v[0], v[1], v[3], odd, unit, 2, batch);
     face(v[0], v[1], v[2], even, unit, 3, batch);
+    find_flat(picture.tile_size / 2, batch);
   }
 
  private:
@@ -138,6 +149,29 @@ class FaceSetup {
       vertex.at.y = hn::Add(vertex.at.y, y);
     }
     return vertex;
+  }
+
+  /// Two faces with nearly the same plane: their depths differ by less than their rounding.
+  static HWY_INLINE void find_flat(double half_tile, FaceBatch& batch) {
+    std::array<V, 4> dx;
+    std::array<V, 4> dy;
+    std::array<V, 4> rounding;
+    for (std::size_t k = 0; k < 4; ++k) {
+      dx[k] = hn::Load(kD, batch.depth.dx[k].data());
+      dy[k] = hn::Load(kD, batch.depth.dy[k].data());
+      const V change = hn::Add(hn::Abs(dx[k]), hn::Abs(dy[k]));
+      const V largest = hn::MulAdd(hn::Set(kD, half_tile), change,
+                                   hn::Abs(hn::Load(kD, batch.depth.start[k].data())));
+      rounding[k] = hn::Mul(hn::Set(kD, kDepthRounding / kSilhouette), largest);
+    }
+    auto flat = hn::Lt(dx[0], dx[0]);  // none
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = i + 1; k < 4; ++k) {
+        const V slope = hn::Add(hn::Abs(hn::Sub(dx[i], dx[k])), hn::Abs(hn::Sub(dy[i], dy[k])));
+        flat = hn::Or(flat, hn::Lt(slope, hn::Add(rounding[i], rounding[k])));
+      }
+    }
+    set_bits(batch.flat, 0, flat);
   }
 
   static HWY_INLINE void store(Planes& planes, std::size_t k, V start, V dx, V dy) {

@@ -45,7 +45,9 @@ class FrontToBack {
   HWY_INLINE Float add(std::size_t block, const Fragment& fragment) {
     const Float before = hn::Load(FloatTag(), sums_.at(block, 3));
     for (std::size_t c = 0; c < 3; ++c) {
-      sums_.add(block, c, hn::Mul(before, fragment.channel[1 + c]));
+      float* sum = sums_.at(block, c);
+      hn::Store(hn::MulAdd(before, fragment.channel[1 + c], hn::Load(FloatTag(), sum)), FloatTag(),
+                sum);
     }
     const Float after = hn::NegMulAdd(before, fragment.channel[4], before);
     hn::Store(after, FloatTag(), sums_.at(block, 3));

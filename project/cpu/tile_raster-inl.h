@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -174,6 +175,18 @@ class TileRaster {
     Float start, dx, dy;
   };
 
+  /// Where a front face and a back face of a flat cell meet: the difference of their depths, taken
+  /// before it is rounded, which is not negative in the silhouette.
+  struct Silhouette {
+    struct Line {
+      double start;
+      double dx;
+      double dy;
+    };
+    std::size_t count = 0;  ///< 0: the cell is not flat
+    std::array<Line, 4> lines;
+  };
+
   /// The same in double, evaluated once per block: what a steep plane needs. It is the face that is
   /// steep, so that both cells at it do the same.
   struct ExactPlane {
@@ -234,22 +247,56 @@ class TileRaster {
     last_x_ = std::min(bounds.last_x - tile_x_, tile_size_ - 1) / kBlockWidth;
     last_y_ = std::min(bounds.last_y - tile_y_, tile_size_ - 1) / kBlockHeight;
     if constexpr (Shader::kValues) set_value_range(drawn.vertices);
+    silhouette_.count = 0;
     if (kPerspective && front == 0) {
       draw_around_eye(drawn.vertices, i);
       return;
     }
+    if (HWY_UNLIKELY(batch_.flat[i] != 0)) find_silhouette(i);
     const std::array<std::uint8_t, 4>& face = kFrontToBack[front];
     CellPlanes<4> planes;
     for (std::size_t k = 0; k < 4; ++k) load_planes(face[k], i, k, planes);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const float second = (front >> face[1] & 1U) != 0 ? kInfinity : -kInfinity;
     const float third = (front >> face[2] & 1U) != 0 ? kInfinity : -kInfinity;
-    if (batch_.steep[i] == 0) {
+    if (HWY_LIKELY(batch_.steep[i] == 0 && batch_.flat[i] == 0)) {
       draw_blocks<4, false>(planes, second, third);
     } else {
       for (std::size_t k = 0; k < 4; ++k) load_exact_planes(face[k], i, k, planes);
       draw_blocks<4, true>(planes, second, third);
     }
+  }
+
+  HWY_NOINLINE void find_silhouette(std::size_t i) {
+    const Planes& depth = batch_.depth;
+    for (std::size_t f = 0; f < 4; ++f) {
+      if ((batch_.front[i] >> f & 1U) == 0) continue;
+      for (std::size_t b = 0; b < 4; ++b) {
+        if ((batch_.front[i] >> b & 1U) != 0) continue;
+        silhouette_.lines[silhouette_.count++] = {depth.start[b][i] - depth.start[f][i],
+                                                  depth.dx[b][i] - depth.dx[f][i],
+                                                  depth.dy[b][i] - depth.dy[f][i]};
+      }
+    }
+  }
+
+  /// The lanes of the block whose first pixel lies at (x, y) from the tile's middle that are in the
+  /// silhouette.
+  HWY_NOINLINE Lanes in_silhouette(int x, int y) const {
+    Lanes result = hn::FirstN(FloatTag(), kLanes);
+    for (std::size_t k = 0; k < silhouette_.count; ++k) {
+      const typename Silhouette::Line& line = silhouette_.lines[k];
+      // Scaled: differences may be too small for floats, and those of faces seen edge on too large.
+      const double scale =
+          1 / (std::abs(line.dx) + std::abs(line.dy) + std::numeric_limits<double>::min());
+      const double first = (line.start + line.dx * x + line.dy * y) * scale;
+      const Float at =
+          hn::MulAdd(set(static_cast<float>(line.dx * scale)), in_block_x_,
+                     hn::MulAdd(set(static_cast<float>(line.dy * scale)), in_block_y_,
+                                set(static_cast<float>(std::clamp(first, -1e30, 1e30)))));
+      result = hn::And(result, hn::Le(set(0), at));
+    }
+    return result;
   }
 
   /// The eye is inside the cell: all faces are back faces, and the rays start at the eye, that is
@@ -283,7 +330,8 @@ class TileRaster {
 
   /// Planes in the order of kFrontToBack; `second` and `third` are +infinity where these faces are
   /// front faces, -infinity where they are back faces; what comes after them are back faces.
-  template <std::size_t kFaces, bool kAnySteep>
+  /// `kCareful`: the cell is flat or has steep faces.
+  template <std::size_t kFaces, bool kCareful>
   HWY_INLINE void draw_blocks(const CellPlanes<kFaces>& planes, float second, float third) {
     const Float side1 = set(second);
     const Float side2 = set(third);
@@ -310,7 +358,7 @@ class TileRaster {
         std::array<Float, kFaces> p;
         for (std::size_t k = 0; k < kFaces; ++k) {
           p[k] = hn::MulAdd(planes.depth[k].dx, x, row[k]);
-          if constexpr (kAnySteep) {
+          if constexpr (kCareful) {
             if (planes.exact_depth[k].steep)
               p[k] = at_block(planes.exact_depth[k], planes.depth[k], left, top);
           }
@@ -325,6 +373,9 @@ class TileRaster {
         s.exit = hn::Min(p[3], hn::Min(exit1, exit2));
         if constexpr (kFaces == 5) s.exit = hn::Min(s.exit, p[4]);
         Lanes covered = hn::Lt(s.entry, s.exit);
+        if constexpr (kCareful) {
+          if (silhouette_.count != 0) covered = in_silhouette(left, top);
+        }
         // What lies behind the eye has 1 - m / z > 1.
         if constexpr (kPerspective) covered = hn::And(covered, hn::Lt(s.exit, set(1)));
         if (hn::AllFalse(FloatTag(), covered)) continue;
@@ -333,7 +384,7 @@ class TileRaster {
           for (std::size_t k = 0; k < kFaces; ++k) {
             const Plane& value = planes.value[k];
             v[k] = hn::MulAdd(value.dx, x, hn::MulAdd(value.dy, y, value.start));
-            if constexpr (kAnySteep) {
+            if constexpr (kCareful) {
               if (planes.exact_value[k].steep)
                 v[k] = at_block(planes.exact_value[k], value, left, top);
             }
@@ -343,6 +394,9 @@ class TileRaster {
           s.back = hn::IfThenElse(hn::Eq(s.exit, exit1), v[1], v[3]);
           s.back = hn::IfThenElse(hn::Eq(s.exit, exit2), v[2], s.back);
           if constexpr (kFaces == 5) s.back = hn::IfThenElse(hn::Eq(s.exit, p[4]), v[4], s.back);
+        }
+        if constexpr (kCareful) {
+          if (silhouette_.count != 0) s.exit = hn::Max(s.entry, s.exit);
         }
         if (HWY_UNLIKELY(clipped_ != nullptr)) {
           covered = clip(block, covered, s);
@@ -414,6 +468,7 @@ class TileRaster {
   Float in_block_x_;
   Float in_block_y_;
   FaceBatch batch_;
+  Silhouette silhouette_;
   // Of the cell in work: its blocks and the range of its values.
   int first_x_ = 0;
   int first_y_ = 0;

@@ -276,7 +276,8 @@ TEST_P(CpuAgreement, OfIsosurfaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, CpuAgreement,
-                         testing::Values("sphere", "orbital", "shells", "cavity", "cycle"),
+                         testing::Values("sphere", "orbital", "shells", "cavity", "cycle",
+                                         "needles"),
                          [](const auto& sample) { return sample.param; });
 
 // Cells that overlap and leave holes, each reaching through much of the mesh, in no order at all:
