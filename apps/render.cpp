@@ -169,6 +169,9 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "NX,NY,NZ,D: keep what lies where n.x <= D, cells are cut; repeatable")
       ->take_all()
       ->expected(1);
+  app->add_option(
+      "--depth-cue", a.depth_cue,
+      "NEAR:FAR, isosurfaces fade to black between these distances along the view axis");
   app->add_option("--background", a.background,
                   "Linear R,G,B[,A] behind a .png. Default: black (white in mode absorption)");
 }

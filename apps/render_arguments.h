@@ -30,6 +30,7 @@ struct RenderArguments : CameraArguments {
   std::string opacity_scale;
   bool logarithmic = false;
   std::vector<std::string> clip;
+  std::string depth_cue;
   std::string projector = "auto";
   std::string context = "auto";
   std::string sort = "auto";

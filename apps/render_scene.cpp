@@ -221,6 +221,11 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
     refuse_iso_options(arguments);
   }
   scene.clip = make_clip_planes(arguments);
+  if (!arguments.depth_cue.empty()) {
+    const auto [near, far] = parse_range(arguments.depth_cue, "--depth-cue");
+    if (!(near < far)) throw base::UsageError("--depth-cue needs NEAR below FAR");
+    scene.depth_cue = project::DepthCue{near, far};
+  }
   scene.camera = make_camera(arguments, mesh, static_cast<double>(scene.width) / scene.height);
   return scene;
 }

@@ -1,8 +1,9 @@
 // The layouts of project/gl side by side: what each costs (the data sets and columns of weiler2002,
 // Tables 1 to 3) and how wrong its pictures are. Prints Markdown.
-//   gl_layouts [FRAMES] [osmesa|egl]
+//   gl_layouts [FRAMES] [osmesa|egl] [costs|errors]
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -85,11 +86,28 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// A row of weiler2002's Tables 1 to 3.
+struct Published {
+  double frames_per_s;
+  double kilocells_per_s;
+  double megabytes_per_s;
+};
+
 struct Data {
   std::string name;
-  std::string published;  // weiler2002: K cells/s of Table 1 (GeForce3), Table 3 (GeForce4, shorts)
+  int published_cells;
+  std::array<Published, 3> published;  // GeForce3, floats; GeForce3, shorts; GeForce4, shorts
   mesh::TetMesh mesh;
 };
+
+constexpr std::array<Published, 3> kOrbital = {
+    {{1.65, 245, 177}, {2.53, 377, 168}, {3.23, 481, 214}}};
+constexpr std::array<Published, 3> kSphere = {
+    {{1.65, 245, 176}, {2.53, 377, 168}, {3.23, 481, 214}}};
+constexpr std::array<Published, 3> kHeatSink = {
+    {{2.01, 244, 175}, {3.02, 367, 163}, {3.81, 464, 207}}};
+constexpr std::array<Published, 3> kBluntFin = {
+    {{1.08, 242, 174}, {1.67, 375, 167}, {2.13, 479, 213}}};
 
 std::vector<Data> data_sets() {
   std::vector<Data> sets;
@@ -98,15 +116,28 @@ std::vector<Data> data_sets() {
       std::filesystem::path(folder != nullptr ? folder : "../shared/data") /
       "classics/bluntfinxyz.bin";
   if (std::filesystem::exists(file)) {
-    sets.push_back({"blunt fin", "242 / 479", mesh::import_mesh(file.string()).mesh});
+    sets.push_back({"blunt fin", 224874, kBluntFin, mesh::import_mesh(file.string()).mesh});
   } else {
     fmt::print(stderr, "no {}: the blunt fin is left out (TETRAGLASS_DATA names its folder)\n",
                file.string());
   }
-  sets.push_back({"heat sink", "244 / 464", mesh::make_sample("heat-sink")});
-  sets.push_back({"orbital", "245 / 481", mesh::make_sample("orbital")});
-  sets.push_back({"sphere", "245 / 481", mesh::make_sample("sphere")});
+  sets.push_back({"heat sink", 121668, kHeatSink, mesh::make_sample("heat-sink")});
+  sets.push_back({"orbital", 148955, kOrbital, mesh::make_sample("orbital")});
+  sets.push_back({"sphere", 148955, kSphere, mesh::make_sample("sphere")});
   return sets;
+}
+
+void print_published(const Data& data) {
+  const std::array<const char*, 3> tables = {"*paper's Table 1: GeForce3, floats*",
+                                             "*paper's Table 2: GeForce3, shorts*",
+                                             "*paper's Table 3: GeForce4, shorts*"};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const int bytes_per_cell = i == 0 ? 720 : 456;
+    const Published& row = data.published[i];
+    fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} |\n", data.name, tables[i],
+               data.published_cells, 1e-6 * bytes_per_cell * data.published_cells, row.frames_per_s,
+               row.kilocells_per_s, row.megabytes_per_s);
+  }
 }
 
 void print_costs(project::ContextKind kind, int frames) {
@@ -114,8 +145,8 @@ void print_costs(project::ContextKind kind, int frames) {
       variant("faces12", Layout::faces12), variant("faces12-short", Layout::faces12_short),
       variant("strip", Layout::strip), variant("indexed", Layout::indexed)};
   fmt::print(
-      "| data set | layout | cells | MB | frames/s | K cells/s | MB/s | published K cells/s |\n"
-      "|---|---|---:|---:|---:|---:|---:|---|\n");
+      "| data set | layout | cells | MB | frames/s | K cells/s | MB/s |\n"
+      "|---|---|---:|---:|---:|---:|---:|\n");
   for (const Data& data : data_sets()) {
     const project::Scene scene = make_scene(data.mesh, Mode::emission);
     const std::unique_ptr<project::gl::Context> context = project::gl::Context::create(kind);
@@ -140,10 +171,11 @@ void print_costs(project::ContextKind kind, int frames) {
       const double seconds = median(times[i]) / 1000;
       const double cells = double(scene.drawable.cells.size());
       const double megabytes = double(projectors[i]->bytes()) / 1e6;
-      fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} | {} |\n", data.name,
+      fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} |\n", data.name,
                  variants[i].name, scene.drawable.cells.size(), megabytes, 1 / seconds,
-                 cells / seconds / 1000, megabytes / seconds, data.published);
+                 cells / seconds / 1000, megabytes / seconds);
     }
+    print_published(data);
   }
 }
 
@@ -204,13 +236,14 @@ void print_errors(project::ContextKind kind) {
 
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::max(1, std::atoi(argv[1])) : 5;
+  const std::string part = argc > 3 ? argv[3] : "";
   const bool egl = argc > 2 && std::string(argv[2]) == "egl";
   const project::ContextKind kind = egl ? project::ContextKind::egl : project::ContextKind::osmesa;
   try {
     fmt::print("{}, {} x {} pixels, medians of {} frames of a turning camera\n\n",
                project::gl::Context::create(kind)->description(), kSize, kSize, frames);
-    print_costs(kind, frames);
-    print_errors(kind);
+    if (part != "errors") print_costs(kind, frames);
+    if (part != "costs") print_errors(kind);
   } catch (const base::Error& error) {
     fmt::print(stderr, "gl_layouts: error: {}\n", error.what());
     return 1;

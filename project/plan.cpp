@@ -173,7 +173,17 @@ bool needs_gl(const Scene& scene, const Request& request) {
       request.sort == SortMethod::centroid || (request.sort == SortMethod::none && blends);
   const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
   return request.context.has_value() || is_any_set(request.gl) || sorts_cells || approximates ||
-         request.table_n != 0;
+         request.table_n != 0 || scene.depth_cue.has_value();
+}
+
+void check_depth_cue(const Scene& scene, Plan& plan) {
+  if (!scene.depth_cue) return;
+  if (scene.mode != Mode::iso) throw base::UsageError("--depth-cue is for --mode iso");
+  if (plan.projector == Projector::cpu) {
+    throw base::UsageError("the cpu projector has no --depth-cue; use --projector gl");
+  }
+  plan.reasons.push_back(fmt::format("depth cue: surfaces fade to black from {:.6g} to {:.6g}",
+                                     scene.depth_cue->near, scene.depth_cue->far));
 }
 
 void plan_projector(Plan& plan) {
@@ -213,6 +223,7 @@ Plan plan(const Scene& scene, const Request& request) {
   if (!scene.clip.empty()) {
     plan.reasons.push_back(fmt::format("clip: cells are cut at {} planes", scene.clip.size()));
   }
+  check_depth_cue(scene, plan);
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
     throw base::UsageError(
         "field '" + scene.field.name +

@@ -9,6 +9,7 @@
 #include "preint/transfer_function.h"
 #include "project/camera.h"
 #include "project/clip.h"
+#include "project/depth_cue.h"
 
 namespace tetraglass::project {
 
@@ -26,7 +27,8 @@ struct Scene {
   MipOf mip_of = MipOf::field;
   std::vector<preint::Isosurface> isosurfaces;  ///< mode iso
   Shading shading = Shading::none;
-  std::vector<ClipPlane> clip;  ///< what all of them keep is drawn
+  std::vector<ClipPlane> clip;        ///< what all of them keep is drawn
+  std::optional<DepthCue> depth_cue;  ///< mode iso
   Camera camera;
   int width = 800;
   int height = 600;

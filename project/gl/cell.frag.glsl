@@ -11,6 +11,9 @@ uniform float pixel_pitch;
 uniform float focus_inverse;  // 0 in parallel views
 #ifdef MODE_ISO
 uniform vec2 depth_range;     // nearest z - focus, and the inverse of the range
+#ifdef DEPTH_CUE
+uniform vec2 depth_cue;       // z - focus where colors are black, and the inverse of the range
+#endif
 #endif
 
 #if defined(COUNT_FRAGMENTS) || defined(GATHER_FRAGMENTS)
@@ -89,6 +92,15 @@ vec4 looked_up(Segment seg) {
 #include "crossing.glsl"
 #endif
 
+// What remains of a surface's color at the part t of the segment (project/depth_cue.h).
+float intensity(Segment seg, float t) {
+#ifdef DEPTH_CUE
+  return clamp((depth_cue.x - mix(seg.entry, seg.exit, t)) * depth_cue.y, 0.0, 1.0);
+#else
+  return 1;
+#endif
+}
+
 // The color of a surface (RGB associated to A) met at the part t of the segment, lit.
 vec3 lit(vec4 color, Segment seg, float t, vec2 position) {
 #if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
@@ -104,9 +116,9 @@ vec3 lit(vec4 color, Segment seg, float t, vec2 position) {
   vec3 gradient = interpolated_gradient(position, mix(seg.entry, seg.exit, t));
 #endif
   Light light = headlight(gradient, to_viewer);
-  return light.of_color * color.rgb + light.added * color.a;
+  return intensity(seg, t) * (light.of_color * color.rgb + light.added * color.a);
 #else
-  return color.rgb;
+  return intensity(seg, t) * color.rgb;
 #endif
 }
 

@@ -249,7 +249,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const base::Stopwatch clock;
   stats.context = context_.description();
   Image image(frame.width(), frame.height());
-  const ViewUniforms view(frame, normalization_, scene_.clip);
+  const ViewUniforms view(frame, normalization_, scene_);
   if (!drawn_.empty() && view.sees_mesh()) {
     const int width = std::min(frame.width(), largest_tile_);
     const int height = std::min(frame.height(), largest_tile_);

@@ -1,6 +1,7 @@
 #include "project/gl/context.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,16 +43,22 @@ std::string text_of_error(GLenum error) {
   }
 }
 
-#ifndef NDEBUG
 // Called from within OpenGL's functions, so it must not throw: the next `check` does.
 void APIENTRY remember_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text,
                                const void* message) {
   auto& first = *static_cast<std::string*>(const_cast<void*>(message));
   if (type == GL_DEBUG_TYPE_ERROR && first.empty()) first = text;
 }
-#endif
 
 }  // namespace
+
+bool wants_debug_output() {
+#ifdef NDEBUG
+  return std::getenv("TETRAGLASS_GL_DEBUG") != nullptr;
+#else
+  return true;
+#endif
+}
 
 std::unique_ptr<Context> Context::create(ContextKind kind) {
   switch (kind) {
@@ -117,11 +124,10 @@ void Context::read_limits() {
 }
 
 void Context::listen_to_errors() {
-#ifndef NDEBUG
+  if (!wants_debug_output()) return;
   functions_->Enable(GL_DEBUG_OUTPUT);
   functions_->Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   functions_->DebugMessageCallback(&remember_message, &message_);
-#endif
 }
 
 void Context::check(const std::string& doing) const {

@@ -46,8 +46,8 @@ class Context {
   [[nodiscard]] const std::string& description() const { return description_; }
 
   /// Throws UnavailableError where OpenGL ran out of memory and Error for any other of its errors
-  /// since the last call, both beginning with `doing` ("drawing cells"). Debug builds tell OpenGL's
-  /// own words.
+  /// since the last call, both beginning with `doing` ("drawing cells"), in OpenGL's own words
+  /// where debug output is wanted (platform.h).
   void check(const std::string& doing) const;
 
  private:

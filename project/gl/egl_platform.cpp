@@ -118,6 +118,8 @@ class EglPlatform final : public Platform {
                                  5,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 wants_debug_output() ? EGL_TRUE : EGL_FALSE,
                                  EGL_NONE};
     const EGLContext context =
         eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);

@@ -205,7 +205,7 @@ Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Pla
                            const Normalization& normalization,
                            const std::vector<std::uint32_t>& drawn)
     : plan_(plan.gl),
-      needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty() ||
+      needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty() || scene.depth_cue ||
                    plan.sort == SortMethod::fragments),
       count_(drawn.size()),
       arrays_(context) {

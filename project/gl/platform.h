@@ -28,6 +28,11 @@ class Platform {
   [[nodiscard]] virtual Function load(const std::string& name) const = 0;
 };
 
+/// Whether contexts are asked for debug output (KHR_debug), so that errors tell what OpenGL has to
+/// say of them: in debug builds, and where the environment has TETRAGLASS_GL_DEBUG, as in the
+/// tests.
+[[nodiscard]] bool wants_debug_output();
+
 /// Mesa's off-screen renderer, 4.5 core. Throws UnavailableError.
 [[nodiscard]] std::unique_ptr<Platform> make_osmesa_platform();
 

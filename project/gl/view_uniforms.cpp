@@ -8,7 +8,7 @@
 namespace tetraglass::project::gl {
 
 ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalization,
-                           std::span<const ClipPlane> clip)
+                           const Scene& scene)
     : parallel_(frame.parallel()),
       axes_(frame.axes()),
       origin_(frame.to_camera(normalization.center) / normalization.radius),
@@ -28,16 +28,22 @@ ViewUniforms::ViewUniforms(const Frame& frame, const Normalization& normalizatio
     focus_ = std::max(focus_, 1.0);
     nearest_depth_ = std::max(nearest_depth_, 0.0);
   }
-  for (const ClipPlane& plane : clip) {
+  // Farther off than the mesh is large they keep all of it or nothing.
+  constexpr double kFar = 1e9;
+  for (const ClipPlane& plane : scene.clip) {
     const double size = plane.normal.norm();
     const Eigen::Vector3d normal = axes_ * plane.normal / size;
     const double offset =
         (plane.offset - plane.normal.dot(normalization.center)) / (size * normalization.radius);
     const double room = offset + normal.dot(origin_ - Eigen::Vector3d(0, 0, focus_));
-    // Farther off than the mesh is large it keeps all of it or nothing.
-    constexpr double kFar = 1e9;
     clip_.emplace_back(normal.cast<float>().x(), normal.cast<float>().y(), normal.cast<float>().z(),
                        static_cast<float>(std::clamp(room, -kFar, kFar)));
+  }
+  if (scene.depth_cue) {
+    const double far = scene.depth_cue->far / normalization.radius - focus_;
+    const double range = (scene.depth_cue->far - scene.depth_cue->near) / normalization.radius;
+    depth_cue_ = {static_cast<float>(std::clamp(far, -1e30, 1e30)),
+                  static_cast<float>(std::min(1 / range, 1e30))};
   }
 }
 
@@ -102,6 +108,7 @@ void ViewUniforms::set(const Program& program, const Tile& tile, int subpixel_bi
   program.set("focus_inverse", parallel_ ? 0.0F : static_cast<float>(1 / focus_));
   program.set("nearest", static_cast<float>(linear_depth(nearest_depth_)));
   program.set("farthest", static_cast<float>(linear_depth(farthest_depth_)));
+  program.set("depth_cue", depth_cue_);
   program.set("depth_range",
               Eigen::Vector2f(nearest_depth_ - focus_, 1 / (farthest_depth_ - nearest_depth_)));
 }

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "project/camera.h"
-#include "project/clip.h"
 #include "project/gl/normalization.h"
 #include "project/gl/program.h"
+#include "project/scene.h"
 
 namespace tetraglass::project::gl {
 
@@ -18,11 +17,11 @@ struct Tile {
   int height = 0;
 };
 
-/// The camera in the normalized units of the mesh, as the shaders want it.
+/// The camera, and what of the scene is placed by it (clip planes, depth cue), in the normalized
+/// units of the mesh, as the shaders want it.
 class ViewUniforms {
  public:
-  ViewUniforms(const Frame& frame, const Normalization& normalization,
-               std::span<const ClipPlane> clip);
+  ViewUniforms(const Frame& frame, const Normalization& normalization, const Scene& scene);
 
   /// Whether anything of the mesh can lie in front of the eye.
   [[nodiscard]] bool sees_mesh() const { return parallel_ || farthest_depth_ > 0; }
@@ -42,6 +41,7 @@ class ViewUniforms {
   double nearest_depth_;  // of the mesh, along the view axis; not behind the eye in perspective
   double farthest_depth_;
   std::vector<Eigen::Vector4f> clip_;
+  Eigen::Vector2f depth_cue_ = Eigen::Vector2f::Zero();  // far - focus; 1 / (far - near)
 };
 
 }  // namespace tetraglass::project::gl

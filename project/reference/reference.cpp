@@ -139,12 +139,18 @@ class Tracer {
         const preint::Isosurface& surface = scene_.isosurfaces[i];
         const double t = (surface.value - segment.front) / (segment.back - segment.front);
         const preint::Color shaded =
-            shade_headlight(surface.color, gradient(segment, t), to_viewer);
+            intensity(segment, t) * shade_headlight(surface.color, gradient(segment, t), to_viewer);
         color += transmittance * surface.opacity * shaded;
         transmittance *= 1 - surface.opacity;
       }
     }
     return rgba(color, 1 - transmittance);
+  }
+
+  /// Of a surface at the part t of the segment, by the scene's depth cue.
+  [[nodiscard]] double intensity(const RaySegment& segment, double t) const {
+    if (!scene_.depth_cue) return 1;
+    return scene_.depth_cue->intensity(segment.entry + t * (segment.exit - segment.entry));
   }
 
   [[nodiscard]] static Rgba thickness(const std::vector<RaySegment>& segments, double stretch) {

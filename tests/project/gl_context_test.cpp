@@ -1,9 +1,12 @@
 #include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
 #include "project/gl/cell_projector.h"
+#include "project/gl/functions.inl"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
@@ -54,6 +57,31 @@ TEST(GlContext, EglDrawsTheSamePicture) {
     }
     EXPECT_LE(difference, 1e-6) << to_string(mode);
     EXPECT_EQ(a.rgba, again.rgba) << to_string(mode);
+  }
+}
+
+// Every drawing ends with a check, so none of OpenGL's errors goes by unseen in any test.
+TEST(GlContext, ErrorsBecomeExceptionsInTheWordsOfOpenGl) {
+  ASSERT_NE(std::getenv("TETRAGLASS_GL_DEBUG"), nullptr) << "set by ctest";
+  for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl}) {
+    std::unique_ptr<gl::Context> context;
+    try {
+      context = gl::Context::create(kind);
+    } catch (const base::UnavailableError& error) {
+      std::cout << error.what() << '\n';
+      continue;
+    }
+    EXPECT_NO_THROW(context->check("nothing"));
+    context->gl().Enable(0x1234567);
+    try {
+      context->check("testing");
+      FAIL() << to_string(kind) << " hides an error";
+    } catch (const base::Error& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind("testing: OpenGL says: ", 0), 0U) << what;
+      EXPECT_NE(what.find("glEnable"), std::string::npos) << what;
+    }
+    EXPECT_NO_THROW(context->check("nothing")) << "told once";
   }
 }
 

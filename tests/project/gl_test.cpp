@@ -11,6 +11,7 @@
 #include "project/gl/program.h"
 #include "project/shading.h"
 #include "tests/support/chord.h"
+#include "tests/support/covered_once.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
@@ -21,6 +22,7 @@ using preint::Color;
 using tests::box;
 using tests::chord;
 using tests::constant_medium;
+using tests::down_z;
 using tests::make_scene;
 
 const Eigen::AlignedBox3d kBox(Eigen::Vector3d(-1, -0.5, -2), Eigen::Vector3d(1, 0.75, 2));
@@ -53,16 +55,6 @@ Image draw_table(const Scene& scene, Integrator integrator, int n, int m = 0) {
   request.table_n = n;
   request.table_m = m;
   return draw(scene, request);
-}
-
-/// Looks along -z, parallel, `height` world units high: x is right, y is up.
-Camera down_z(double height, const Eigen::Vector2d& at = Eigen::Vector2d::Zero()) {
-  Camera camera;
-  camera.eye = {at.x(), at.y(), 10};
-  camera.target = {at.x(), at.y(), 0};
-  camera.parallel = true;
-  camera.ortho_height = height;
-  return camera;
 }
 
 struct View {
@@ -105,25 +97,8 @@ TEST(Gl, ThicknessIsTheChord) {
   }
 }
 
-// Exactly once along shared edges and faces, on silhouettes as the reference decides: as if the ray
-// were moved to the right and up.
 TEST(Gl, RaysThroughEdgesMeetEachCellOnce) {
-  // Pixel centres at the quarters of the bricks, on their diagonals; half a brick to the side on
-  // their edges.
-  const mesh::TetMesh mesh = box({0, 0, 0}, {8, 8, 8}, 8, 8, 8, zero);
-  Scene scene = make_scene(mesh, Mode::thickness, constant_medium({1, 1, 1}, 1), 16);
-  for (const double shift : {0.0, 0.25, 0.5}) {
-    scene.camera = down_z(8, {4 + shift, 4 + shift});
-    const Frame frame(scene.camera, 16, 16);
-    const Image image = draw(scene);
-    for (int y = 0; y < 16; ++y) {
-      for (int x = 0; x < 16; ++x) {
-        const Eigen::Vector2d at = frame.image_plane(x, y).array() + 4 + shift;
-        const bool inside = (at.array() >= 0).all() && (at.array() < 8).all();
-        EXPECT_NEAR(image.pixel(x, y)[0], inside ? 8 : 0, 1e-5) << x << ' ' << y << ' ' << shift;
-      }
-    }
-  }
+  tests::expect_edges_covered_once([](const Scene& scene) { return draw(scene); });
 }
 
 // The central ray runs along the diagonals of the bricks, where six cells meet, from outside and

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/chord.h"
+#include "tests/support/covered_once.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
@@ -15,6 +16,7 @@ using preint::Color;
 using tests::box;
 using tests::chord;
 using tests::constant_medium;
+using tests::down_z;
 using tests::make_scene;
 
 const Eigen::AlignedBox3d kBox(Eigen::Vector3d(-1, -0.5, -2), Eigen::Vector3d(1, 0.75, 2));
@@ -26,15 +28,6 @@ mesh::TetMesh box_mesh(const tests::FieldFunction& f, int n = 3) {
 Image draw(const Scene& scene) {
   Stats stats;
   return render_reference(scene, stats);
-}
-
-/// Looks along -z, parallel, `height` world units high: x is right, y is up.
-Camera down_z(double height) {
-  Camera camera;
-  camera.eye = {0, 0, 10};
-  camera.parallel = true;
-  camera.ortho_height = height;
-  return camera;
 }
 
 /// Cameras from which the box looks different: outside, inside, parallel.
@@ -68,22 +61,8 @@ TEST(Reference, ThicknessIsTheChord) {
   }
 }
 
-// Rays exactly along faces and edges: nothing is counted twice, nothing missed.
 TEST(Reference, RaysThroughEdgesMeetEachCellOnce) {
-  // 8 x 8 bricks over 16 x 16 pixels: pixel centres lie at the quarters, on the diagonals of the
-  // bricks; half a brick to the side they lie on the edges.
-  const mesh::TetMesh mesh = box({0, 0, 0}, {8, 8, 8}, 8, 8, 8, [](const auto&) { return 0.0; });
-  Scene scene = make_scene(mesh, Mode::thickness, constant_medium({1, 1, 1}, 1), 16);
-  for (const double shift : {0.0, 0.25, 0.5}) {
-    scene.camera = down_z(8);
-    scene.camera.eye = {4 + shift, 4 + shift, 20};
-    scene.camera.target = {4 + shift, 4 + shift, 0};
-    const Image image = draw(scene);
-    for (int y = 1; y < 15; ++y) {
-      for (int x = 1; x < 14; ++x)
-        EXPECT_EQ(image.pixel(x, y)[0], 8) << x << ' ' << y << " shift " << shift;
-    }
-  }
+  tests::expect_edges_covered_once([](const Scene& scene) { return draw(scene); });
 }
 
 TEST(Reference, ConstantMediumFollowsTheExponential) {

@@ -23,6 +23,16 @@ inline project::Scene make_scene(const mesh::TetMesh& mesh, project::Mode mode,
   return scene;
 }
 
+/// Looks along -z from z = 10, parallel, `height` world units high: x is right, y is up.
+inline project::Camera down_z(double height, const Eigen::Vector2d& at = Eigen::Vector2d::Zero()) {
+  project::Camera camera;
+  camera.eye = {at.x(), at.y(), 10};
+  camera.target = {at.x(), at.y(), 0};
+  camera.parallel = true;
+  camera.ortho_height = height;
+  return camera;
+}
+
 /// A medium that is the same for every value.
 inline preint::TransferFunction constant_medium(const preint::Color& color, double extinction) {
   return preint::TransferFunction({{0.0, color, extinction}});
