@@ -1,6 +1,7 @@
 #include "sort/boundary_relations.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,9 +10,10 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <tbb/parallel_sort.h>
 
 #include "sort/face_pair.h"
+#include "sort/image_triangle.h"
+#include "sort/key_sort.h"
 
 namespace tetraglass::sort {
 namespace {
@@ -57,23 +59,36 @@ class ImagePlane {
         slope_(view.direction[(axis + 1) % 3] / view.direction[axis],
                view.direction[(axis + 2) % 3] / view.direction[axis]) {}
 
-  // None if the face cannot be seen on this plane.
-  [[nodiscard]] std::optional<ImageBox> box(const BoundaryFace& face) const {
-    return parallel_ ? parallel_box(face) : perspective_box(face);
+  // None if the face cannot be seen on this plane. The image is set only where all of the face is
+  // in front of the eye.
+  [[nodiscard]] std::optional<ImageBox> box(const BoundaryFace& face, ImageTriangle& image) const {
+    return parallel_ ? parallel_box(face, image) : perspective_box(face, image);
+  }
+
+  // Whether any face within this box may be seen on this plane.
+  [[nodiscard]] bool may_see(const mesh::Box& box) const {
+    if (parallel_ || box.isEmpty()) return true;
+    std::array<Vector3d, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = from_eye(box.corner(static_cast<mesh::Box::CornerType>(i)));
+    }
+    return !is_beyond_a_side(corners);
   }
 
  private:
-  [[nodiscard]] ImageBox parallel_box(const BoundaryFace& face) const {
+  [[nodiscard]] ImageBox parallel_box(const BoundaryFace& face, ImageTriangle& image) const {
     ImageBox box = nothing();
     double size = 0;
-    for (const std::uint32_t index : face.vertices) {
-      const Vector3d& p = points_[index];
+    std::array<Eigen::Vector2d, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d& p = points_[face.vertices[i]];
       const double depth = p[axis_];
       for (std::size_t k = 0; k < 2; ++k) {
         const double across = p[(axis_ + 1 + static_cast<int>(k)) % 3];
         // Errors: the slope (at most 1), the product and the difference round once each.
         size = std::max(size, std::abs(across) + std::abs(depth));
-        include(box, k, across - slope_[static_cast<int>(k)] * depth);
+        corners[i][static_cast<int>(k)] = across - slope_[static_cast<int>(k)] * depth;
+        include(box, k, corners[i][static_cast<int>(k)]);
       }
       box.near = std::min(box.near, sign_ * depth);
       box.far = std::max(box.far, sign_ * depth);
@@ -82,27 +97,40 @@ class ImagePlane {
       box.low[k] -= kSlack * size;
       box.high[k] += kSlack * size;
     }
+    image = ImageTriangle(corners, size);
     return box;
   }
 
-  [[nodiscard]] std::optional<ImageBox> perspective_box(const BoundaryFace& face) const {
-    std::array<Vector3d, 3> v;  // across, across, depth
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3d d = points_[face.vertices[i]] - eye_;  // each coordinate rounds once
-      v[i] = {d[(axis_ + 1) % 3], d[(axis_ + 2) % 3], sign_ * d[axis_]};
-    }
-    // Beyond one side of the pyramid of directions that this plane sees.
-    const auto all = [&](const auto& test) { return std::all_of(v.begin(), v.end(), test); };
-    if (all([](const Vector3d& p) { return p.z() <= 0; })) return std::nullopt;
+  // A point as this plane sees it: across, across, depth. Each coordinate rounds once.
+  [[nodiscard]] Vector3d from_eye(const Vector3d& p) const {
+    const Vector3d d = p - eye_;
+    return {d[(axis_ + 1) % 3], d[(axis_ + 2) % 3], sign_ * d[axis_]};
+  }
+
+  // Whether all points lie beyond one side of the pyramid of directions that this plane sees.
+  template <std::size_t N>
+  [[nodiscard]] static bool is_beyond_a_side(const std::array<Vector3d, N>& points) {
+    const auto all = [&](const auto& test) {
+      return std::all_of(points.begin(), points.end(), test);
+    };
+    if (all([](const Vector3d& p) { return p.z() <= 0; })) return true;
     for (int k = 0; k < 2; ++k) {
       const auto beyond = [k](const Vector3d& p, double side) {
         return side * p[k] - p.z() > kSlack * (std::abs(p[k]) + std::abs(p.z()));
       };
       if (all([&](const Vector3d& p) { return beyond(p, 1); }) ||
           all([&](const Vector3d& p) { return beyond(p, -1); })) {
-        return std::nullopt;
+        return true;
       }
     }
+    return false;
+  }
+
+  [[nodiscard]] std::optional<ImageBox> perspective_box(const BoundaryFace& face,
+                                                        ImageTriangle& image) const {
+    std::array<Vector3d, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = from_eye(points_[face.vertices[i]]);
+    if (is_beyond_a_side(v)) return std::nullopt;
     ImageBox box = nothing();
     for (const Vector3d& p : v) {
       box.in_half_space = box.in_half_space && p.z() > 0;
@@ -110,6 +138,7 @@ class ImagePlane {
       box.far = std::max(box.far, p.z() + kSlack * std::abs(p.z()));
     }
     box.near = std::max(box.near, 0.0);
+    if (box.in_half_space) image = perspective_image(v);
     for (std::size_t k = 0; k < 2; ++k) {
       if (box.in_half_space) {
         for (const Vector3d& p : v) include(box, k, p[static_cast<int>(k)] / p.z());
@@ -123,6 +152,17 @@ class ImagePlane {
       box.high[k] = std::min(box.high[k], 2.0);
     }
     return box;
+  }
+
+  // Three roundings: of the two coordinates and of the quotient.
+  static ImageTriangle perspective_image(const std::array<Vector3d, 3>& v) {
+    std::array<Eigen::Vector2d, 3> corners;
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = v[i].head<2>() / v[i].z();
+      size = std::max(size, corners[i].cwiseAbs().maxCoeff());
+    }
+    return ImageTriangle(corners, size);
   }
 
   static ImageBox nothing() {
@@ -147,16 +187,24 @@ struct BoxedFace {
   std::uint32_t face = 0;
 };
 
-std::vector<BoxedFace> boxed(const std::vector<BoundaryFace>& faces, const ImagePlane& plane) {
+struct SeenFaces {
+  std::vector<BoxedFace> faces;
+  std::vector<ImageTriangle> images;  // of all faces
+};
+
+SeenFaces see(const std::vector<BoundaryFace>& faces, const ImagePlane& plane) {
   std::vector<std::optional<ImageBox>> boxes(faces.size());
+  SeenFaces seen;
+  seen.images.resize(faces.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) boxes[i] = plane.box(faces[i]);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      boxes[i] = plane.box(faces[i], seen.images[i]);
+    }
   });
-  std::vector<BoxedFace> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (boxes[i]) result.push_back({*boxes[i], static_cast<std::uint32_t>(i)});
+    if (boxes[i]) seen.faces.push_back({*boxes[i], static_cast<std::uint32_t>(i)});
   }
-  return result;
+  return seen;
 }
 
 // A binary tree of boxes over faces, halved by number along the longer side of the image.
@@ -223,33 +271,83 @@ class BoxTree {
   std::vector<ImageBox> nodes_;
 };
 
+mesh::Box bounds(const mesh::TetMesh& mesh, const std::vector<BoundaryFace>& faces) {
+  mesh::Box box;
+  for (const BoundaryFace& face : faces) {
+    for (const std::uint32_t v : face.vertices) box.extend(mesh.points[v]);
+  }
+  return box;
+}
+
+// Entries of the cell behind, as the key, and of the one in front.
 void add_relations(const mesh::TetMesh& mesh, const std::vector<BoundaryFace>& exits,
                    const std::vector<BoundaryFace>& entries, const View& view,
-                   const ImagePlane& plane, std::vector<Relation>& relations) {
-  const std::vector<BoxedFace> seen_exits = boxed(exits, plane);
-  if (seen_exits.empty()) return;
-  const BoxTree tree(boxed(entries, plane));
-  tbb::enumerable_thread_specific<std::vector<Relation>> found;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_exits.size(), 64),
+                   const ImagePlane& plane, std::vector<KeyedItem>& relations) {
+  const SeenFaces seen_exits = see(exits, plane);
+  if (seen_exits.faces.empty()) return;
+  SeenFaces seen_entries = see(entries, plane);
+  const BoxTree tree(std::move(seen_entries.faces));
+  tbb::enumerable_thread_specific<std::vector<KeyedItem>> found;
+  const auto relate = [&](const BoxedFace& exit, std::vector<KeyedItem>& mine) {
+    const BoundaryFace& exit_face = exits[exit.face];
+    const ImageTriangle& exit_image = seen_exits.images[exit.face];
+    tree.for_each_behind(exit.box, [&](const BoxedFace& entry) {
+      const BoundaryFace& entry_face = entries[entry.face];
+      if (entry_face.cell == exit_face.cell) return;
+      const bool in_half_space = exit.box.in_half_space && entry.box.in_half_space;
+      const bool farther = entry.box.near > exit.box.far;
+      const Overlap overlap = in_half_space
+                                  ? find_overlap(exit_image, seen_entries.images[entry.face])
+                                  : Overlap::uncertain;
+      if (overlap == Overlap::none) return;
+      if ((overlap == Overlap::some && farther) ||
+          hides(mesh, exit_face, entry_face, view, in_half_space, farther)) {
+        mine.push_back(keyed(entry_face.cell, exit_face.cell));
+      }
+    });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_exits.faces.size(), 64),
                     [&](const auto& range) {
-                      std::vector<Relation>& mine = found.local();
+                      std::vector<KeyedItem>& mine = found.local();
                       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        const BoxedFace& exit = seen_exits[i];
-                        const BoundaryFace& exit_face = exits[exit.face];
-                        tree.for_each_behind(exit.box, [&](const BoxedFace& entry) {
-                          const BoundaryFace& entry_face = entries[entry.face];
-                          if (entry_face.cell == exit_face.cell) return;
-                          if (hides(mesh, exit_face, entry_face, view,
-                                    exit.box.in_half_space && entry.box.in_half_space,
-                                    entry.box.near > exit.box.far)) {
-                            mine.push_back({exit_face.cell, entry_face.cell});
-                          }
-                        });
+                        relate(seen_exits.faces[i], mine);
                       }
                     });
-  for (const std::vector<Relation>& part : found) {
+  for (const std::vector<KeyedItem>& part : found) {
     relations.insert(relations.end(), part.begin(), part.end());
   }
+}
+
+// By the cell behind, then by that in front, once each: in an order that does not depend on the
+// threads.
+std::vector<Relation> sort_relations(std::vector<KeyedItem> found, std::size_t cells) {
+  // Cells take all the bits of the keys, so that the buckets are even.
+  const int shift = std::countl_zero(static_cast<std::uint32_t>(cells));
+  KeySorter sorter;
+  const auto write = [&](std::size_t begin, std::size_t count, KeyedItem* target) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const KeyedItem relation = found[begin + i];
+      target[i] = keyed(key_of(relation) << shift, item_of(relation));
+    }
+  };
+  const auto finish = [&](std::span<const KeyedItem> sorted, std::size_t place) {
+    std::copy(sorted.begin(), sorted.end(), found.begin() + static_cast<std::ptrdiff_t>(place));
+    const auto at = [&](std::size_t i) {
+      return found.begin() + static_cast<std::ptrdiff_t>(place + i);
+    };
+    for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+      while (end < sorted.size() && key_of(sorted[end]) == key_of(sorted[begin])) ++end;
+      std::sort(at(begin), at(end));
+    }
+  };
+  sorter.sort(found.size(), write, finish);
+  std::vector<Relation> relations;
+  relations.reserve(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (i > 0 && found[i] == found[i - 1]) continue;
+    relations.push_back({item_of(found[i]), key_of(found[i]) >> shift});
+  }
+  return relations;
 }
 
 }  // namespace
@@ -258,28 +356,22 @@ std::vector<Relation> boundary_relations(const mesh::TetMesh& mesh,
                                          const std::vector<BoundaryFace>& exits,
                                          const std::vector<BoundaryFace>& entries,
                                          const View& view) {
-  std::vector<Relation> relations;
+  std::vector<KeyedItem> relations;
   if (view.parallel) {
     int axis = 0;
     view.direction.cwiseAbs().maxCoeff(&axis);
     add_relations(mesh, exits, entries, view,
                   {mesh, view, axis, view.direction[axis] > 0 ? 1.0 : -1.0}, relations);
   } else {
+    const mesh::Box box = bounds(mesh, exits);
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {
-        add_relations(mesh, exits, entries, view, {mesh, view, axis, sign}, relations);
+        const ImagePlane plane(mesh, view, axis, sign);
+        if (plane.may_see(box)) add_relations(mesh, exits, entries, view, plane, relations);
       }
     }
   }
-  // In an order that does not depend on the threads.
-  tbb::parallel_sort(relations.begin(), relations.end(), [](const Relation& a, const Relation& b) {
-    return a.back != b.back ? a.back < b.back : a.front < b.front;
-  });
-  const auto same = [](const Relation& a, const Relation& b) {
-    return a.back == b.back && a.front == b.front;
-  };
-  relations.erase(std::unique(relations.begin(), relations.end(), same), relations.end());
-  return relations;
+  return sort_relations(std::move(relations), mesh.cells.size());
 }
 
 }  // namespace tetraglass::sort

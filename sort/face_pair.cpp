@@ -29,6 +29,8 @@ struct Sides {
 Sides sides_of(const Triangle& face, const Triangle& other) {
   Sides sides;
   for (const Vector3d* v : other.vertices) {
+    // A corner that both have; to find the zero takes exact numbers.
+    if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end()) continue;
     const int side = mesh::orientation(face[0], face[1], face[2], *v);
     sides.above |= side > 0;
     sides.below |= side < 0;
@@ -41,7 +43,8 @@ Sides sides_of(const Triangle& face, const Triangle& other) {
 bool edge_separates(const Triangle& a, int turn, const Triangle& b, const View& view) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto outside = [&](const Vector3d* v) {
-      return eye_side(view, a[i], a[i + 1], *v) * turn <= 0;
+      return v == a.vertices[i] || v == a.vertices[(i + 1) % 3] ||
+             eye_side(view, a[i], a[i + 1], *v) * turn <= 0;
     };
     if (std::all_of(b.vertices.begin(), b.vertices.end(), outside)) return true;
   }
