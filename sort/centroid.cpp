@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sort/centroid_keys.h"
+#include "sort/depth_keys.h"
 
 namespace tetraglass::sort {
 namespace {
@@ -16,13 +16,6 @@ Vector3d centroid(const mesh::TetMesh& mesh, std::uint32_t index) {
   const mesh::Cell& cell = mesh.cells[index];
   const auto quarter = [&](std::size_t i) -> Vector3d { return 0.25 * mesh.points[cell[i]]; };
   return (quarter(0) + quarter(1)) + (quarter(2) + quarter(3));
-}
-
-constexpr double kSteps = 0x1p31;
-
-// Coordinates lie between -1 and 1.
-std::int32_t fixed(double x) {
-  return static_cast<std::int32_t>(std::clamp(std::rint(x * kSteps), -kSteps, kSteps - 1));
 }
 
 // The depth in perspective is the squared distance from the eye, |v + w|^2 - |w|^2 = v . v + 2 w .
@@ -82,9 +75,9 @@ CentroidSorter::CentroidSorter(const mesh::TetMesh& mesh, std::span<const std::u
   chunks.for_each([&](std::size_t chunk) {
     for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
       const Vector3d v = (centroid(mesh, cells_[without_depth_ + i]) - middle_) / unit_;
-      x_[i] = fixed(v.x());
-      y_[i] = fixed(v.y());
-      z_[i] = fixed(v.z());
+      x_[i] = in_steps(v.x());
+      y_[i] = in_steps(v.y());
+      z_[i] = in_steps(v.z());
     }
   });
   order_.method = "centroid";

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -63,59 +65,86 @@ PowerSorter::PowerSorter(const mesh::TetMesh& mesh, std::span<const std::uint32_
     spheres_.push_back(
         with_roundings(spheres[static_cast<std::size_t>(first - links_.cells.begin())]));
   }
+  std::vector<std::uint32_t> items = links_.cells;
+  if (groups_->has_ties()) {
+    items.resize(groups_->size());
+    std::iota(items.begin(), items.end(), 0U);
+  }
+  double largest_weight = 0;
+  for (const double weight : weights) largest_weight = std::max(largest_weight, std::abs(weight));
+  keyed_ = KeyedSpheres(spheres_, radius_, largest_weight, std::move(items));
   order_.method = "power";
 }
 
-// Of at most a thousand groups.
-PowerKeys PowerSorter::choose_keys(const PowerOfEye& power) const {
-  constexpr std::size_t kMost = 1024;
-  const std::size_t step = spheres_.size() / kMost + 1;
-  std::vector<double> sample;
-  for (std::size_t i = 0; i < spheres_.size(); i += step) {
-    const double some = power.of(spheres_[i]);
-    if (std::isfinite(some)) sample.push_back(some);
-  }
-  return PowerKeys(std::move(sample));
-}
-
-// An entry for each group, and the keys that those may have whose own is uncertain.
+// An entry for each group, and the runs of those whose order is uncertain.
 PowerSorter::Entries PowerSorter::sort_groups(Frame& frame) {
-  const auto doubtful_range = [&](double power, double doubt) {
-    constexpr std::uint32_t kLast = std::numeric_limits<std::uint32_t>::max();
-    if (!std::isfinite(power) || !std::isfinite(doubt)) return KeyRange{0, kLast};
-    const std::uint32_t low = frame.keys.key(power + doubt);
-    const std::uint32_t high = frame.keys.key(power - doubt);
-    return KeyRange{low - (low > 0 ? 1 : 0), high + (high < kLast ? 1 : 0)};
-  };
   const auto write = [&](std::size_t begin, std::size_t count, KeyedItem* target) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const PowerSphere& sphere = spheres_[begin + i];
-      const double power = frame.power.of(sphere);
-      const double doubt = frame.power.doubt(sphere);
-      target[i] = keyed(std::isfinite(power) ? frame.keys.key(power) : 0, item_of_group(begin + i));
-      if (!frame.keys.is_certain(doubt)) {
-        const std::lock_guard lock(frame.mutex);
-        frame.doubtful.push_back(doubtful_range(power, doubt));
-      }
-    }
+    keyed_.write(frame.keys, begin, count, target);
+    key_far_spheres(begin, count, target, frame);
   };
-  const Entries entries = sorter_.sort(spheres_.size(), write);
-  join_overlapping(frame.doubtful);
+  const Entries entries = sorter_.sort(keyed_.size(), write, [&](Entries some, std::size_t begin) {
+    take_sorted(some, begin, frame);
+  });
+  find_runs(entries, frame);
   return entries;
 }
 
-// Where each group is one cell, cells are sorted right away: looking them up afterwards, in the
-// order of their depths, takes as long as sorting.
-std::uint32_t PowerSorter::item_of_group(std::size_t group) const {
-  return groups_->has_ties() ? static_cast<std::uint32_t>(group) : links_.cells[group];
+void PowerSorter::key_far_spheres(std::size_t begin, std::size_t count, KeyedItem* target,
+                                  Frame& frame) const {
+  const auto& far = keyed_.far();
+  for (auto i = std::lower_bound(far.begin(), far.end(), begin);
+       i != far.end() && *i < begin + count; ++i) {
+    const PowerSphere& sphere = spheres_[*i];
+    const KeyRange range =
+        doubtful_range(frame.keys, frame.power.of(sphere), frame.power.doubt(sphere));
+    target[*i - begin] = keyed(range.low + (range.high - range.low) / 2, keyed_.item(*i));
+    const std::lock_guard lock(frame.mutex);
+    frame.doubtful.push_back(range);
+  }
 }
+
+// Of sorted entries that are still in the cache, the first one being of number `begin`. Where each
+// group is one cell these are written right away.
+void PowerSorter::take_sorted(Entries entries, std::size_t begin, Frame& frame) {
+  if (entries.empty()) return;
+  if (!groups_->has_ties()) {
+    std::transform(entries.begin(), entries.end(),
+                   order_.cells.begin() + static_cast<std::ptrdiff_t>(links_.flat.size() + begin),
+                   item_of);
+  }
+  std::vector<Run> runs;
+  // Whether the last entry before is certain to be farther is seen in the end.
+  if (begin > 0) runs.push_back({begin - 1, begin + 1});
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    if (!is_cut(frame.keys, key_of(entries[i - 1]), key_of(entries[i]))) {
+      runs.push_back({begin + i - 1, begin + i + 1});
+    }
+  }
+  if (runs.empty()) return;
+  const std::lock_guard lock(frame.mutex);
+  frame.runs.insert(frame.runs.end(), runs.begin(), runs.end());
+}
+
+void PowerSorter::find_runs(Entries entries, Frame& frame) const {
+  std::erase_if(frame.runs, [&](const Run& pair) {
+    return is_cut(frame.keys, key_of(entries[pair.begin]), key_of(entries[pair.begin + 1]));
+  });
+  join_overlapping(frame.doubtful);
+  for (const KeyRange& range : frame.doubtful) {
+    const auto first = std::partition_point(
+        entries.begin(), entries.end(), [&](KeyedItem entry) { return key_of(entry) < range.low; });
+    const auto last = std::partition_point(
+        first, entries.end(), [&](KeyedItem entry) { return key_of(entry) <= range.high; });
+    frame.runs.push_back({static_cast<std::size_t>(first - entries.begin()),
+                          static_cast<std::size_t>(last - entries.begin())});
+  }
+  join_overlapping(frame.runs);
+}
+
 std::uint32_t PowerSorter::group_of(KeyedItem entry) const {
   if (groups_->has_ties()) return item_of(entry);
   const auto place = std::lower_bound(links_.cells.begin(), links_.cells.end(), item_of(entry));
   return static_cast<std::uint32_t>(place - links_.cells.begin());
-}
-std::size_t PowerSorter::count_cells(KeyedItem entry) const {
-  return groups_->has_ties() ? groups_->size(item_of(entry)) : 1;
 }
 
 void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& frame) {
@@ -127,31 +156,46 @@ void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& fra
   order_.cyclic_cells.insert(order_.cyclic_cells.end(), cells.begin(), cells.end());
 }
 
-// Writes the runs of groups of uncertain order that begin within a chunk of the entries, of which
-// the first one has its cells at `place`.
+// Writes the groups, and the runs of uncertain order, that begin within a chunk of the entries, of
+// which the first one has its cells at `place`.
 void PowerSorter::write_chunk(Entries entries, std::size_t begin, std::size_t end,
                               std::size_t place, Frame& frame) {
-  CutFinder cuts(frame.doubtful);
-  const auto is_cut_before = [&](std::size_t i) {
-    return i == 0 || i == entries.size() || cuts.is_cut(key_of(entries[i - 1]), key_of(entries[i]));
-  };
-  for (; begin < end && !is_cut_before(begin); ++begin) {
-    place += count_cells(entries[begin]);
+  auto run = std::partition_point(frame.runs.begin(), frame.runs.end(),
+                                  [&](const Run& r) { return r.end <= begin; });
+  if (run != frame.runs.end() && run->begin < begin) {
+    for (; begin < std::min(end, run->end); ++begin)
+      place += groups_->size(item_of(entries[begin]));
+    ++run;
   }
   while (begin < end) {
-    std::size_t next = begin + 1;
-    std::size_t cells = count_cells(entries[begin]);
-    for (; !is_cut_before(next); ++next) cells += count_cells(entries[next]);
-    if (next > begin + 1) {
-      write_run(entries.subspan(begin, next - begin), place, frame);
-    } else if (groups_->has_ties()) {
-      write_group(item_of(entries[begin]), place, frame);
-    } else {
-      order_.cells[place] = item_of(entries[begin]);
+    const std::size_t group = item_of(entries[begin]);
+    if (run == frame.runs.end() || run->begin != begin) {
+      write_group(static_cast<std::uint32_t>(group), place, frame);
+      place += groups_->size(group);
+      ++begin;
+      continue;
     }
-    begin = next;
-    place += cells;
+    write_run(entries.subspan(begin, run->end - begin), place, frame);
+    for (; begin < run->end; ++begin) place += groups_->size(item_of(entries[begin]));
+    ++run;
   }
+}
+
+// All cells of all groups.
+void PowerSorter::write_groups(Entries entries, Frame& frame) {
+  const Chunks chunks(entries.size());
+  std::vector<std::size_t> places(chunks.count + 1, links_.flat.size());
+  chunks.for_each([&](std::size_t chunk) {
+    std::size_t cells = 0;
+    for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+      cells += groups_->size(item_of(entries[i]));
+    }
+    places[chunk + 1] = cells;
+  });
+  for (std::size_t i = 0; i < chunks.count; ++i) places[i + 1] += places[i];
+  chunks.for_each([&](std::size_t chunk) {
+    write_chunk(entries, chunks.begin(chunk), chunks.end(chunk), places[chunk], frame);
+  });
 }
 
 // By powers in double, cut wherever all before are certain to be farther than all after.
@@ -271,25 +315,18 @@ const Order& PowerSorter::sort(const View& view) {
   order_.cells.resize(links_.flat.size() + links_.cells.size());
   std::copy(links_.flat.begin(), links_.flat.end(), order_.cells.begin());
   const PowerOfEye power(view, middle_);
-  Frame frame{view, power, choose_keys(power), EyeSides(view, middle_, radius_), {}, {}};
+  Frame frame{view, power, keyed_.choose_keys(power), EyeSides(view, middle_, radius_), {}, {}, {}};
   const Entries entries = sort_groups(frame);
-  const Chunks chunks(entries.size());
-  std::vector<std::size_t> places(chunks.count + 1, links_.flat.size());
   if (groups_->has_ties()) {
-    chunks.for_each([&](std::size_t chunk) {
-      std::size_t cells = 0;
-      for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-        cells += groups_->size(item_of(entries[i]));
-      }
-      places[chunk + 1] = cells;
-    });
-    for (std::size_t i = 0; i < chunks.count; ++i) places[i + 1] += places[i];
+    write_groups(entries, frame);
   } else {
-    for (std::size_t i = 0; i < chunks.count; ++i) places[i] += chunks.begin(i);
+    tbb::parallel_for(Range(0, frame.runs.size(), 64), [&](const Range& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const auto [begin, end] = frame.runs[i];
+        write_run(entries.subspan(begin, end - begin), links_.flat.size() + begin, frame);
+      }
+    });
   }
-  chunks.for_each([&](std::size_t chunk) {
-    write_chunk(entries, chunks.begin(chunk), chunks.end(chunk), places[chunk], frame);
-  });
   std::sort(order_.cyclic_cells.begin(), order_.cyclic_cells.end());
   order_.exact = order_.cycles == 0;
   return order_;

@@ -23,12 +23,12 @@ namespace tetraglass::sort {
 /// one (Edelsbrunner 1990, "An acyclicity theorem for cell complexes in d dimension"). Cells
 /// without volume come first.
 ///
-/// Powers are sorted by keys of 32 bits. Where keys are too near to each other to be certain,
-/// powers in double with bounds of their errors decide; cells whose powers may be equal even so are
-/// put in order by the faces between them, decided exactly, and across gaps of the mesh by powers
-/// in exact numbers. Cells of one sphere that meet at faces, as those of a voxel, are sorted as
-/// one, and among themselves by their faces. Keeps what does not depend on the view (about 100
-/// bytes per cell).
+/// Powers are sorted by keys of 32 bits, from spheres of 16 bytes. Where keys are too near to each
+/// other to be certain, powers in double with bounds of their errors decide; cells whose powers may
+/// be equal even so are put in order by the faces between them, decided exactly, and across gaps of
+/// the mesh by powers in exact numbers. Cells of one sphere that meet at faces, as those of a
+/// voxel, are sorted as one, and among themselves by their faces. Keeps what does not depend on the
+/// view (about 100 bytes per cell).
 class PowerSorter {
  public:
   /// `cells` are indices into mesh.cells of cells with finite coordinates; only these are sorted.
@@ -43,22 +43,24 @@ class PowerSorter {
   [[nodiscard]] const Order& sort(const View& view);
 
  private:
-  // What the sorting of one view needs, and the rings it finds.
+  // What the sorting of one view needs, and what it finds.
   struct Frame {
     const View& view;
     PowerOfEye power;
-    PowerKeys keys;
+    KeyedSpheres::Keys keys;
     EyeSides sides;
-    std::vector<KeyRange> doubtful;
+    std::vector<KeyRange> doubtful;  // of far spheres
+    std::vector<Run> runs;           // of groups of uncertain order
     std::mutex mutex;
   };
   using Entries = std::span<const KeyedItem>;
 
-  [[nodiscard]] PowerKeys choose_keys(const PowerOfEye& power) const;
   Entries sort_groups(Frame& frame);
-  [[nodiscard]] std::uint32_t item_of_group(std::size_t group) const;
+  void key_far_spheres(std::size_t begin, std::size_t count, KeyedItem* target, Frame& frame) const;
+  void take_sorted(Entries entries, std::size_t begin, Frame& frame);
+  void find_runs(Entries entries, Frame& frame) const;
   [[nodiscard]] std::uint32_t group_of(KeyedItem entry) const;
-  [[nodiscard]] std::size_t count_cells(KeyedItem entry) const;
+  void write_groups(Entries entries, Frame& frame);
   void write_chunk(Entries entries, std::size_t begin, std::size_t end, std::size_t place,
                    Frame& frame);
   void write_group(std::uint32_t group, std::size_t place, Frame& frame);
@@ -74,6 +76,7 @@ class PowerSorter {
   double radius_ = 0;
   bool convex_ = false;               // no cell sees another one across a gap
   std::vector<PowerSphere> spheres_;  // of each group
+  KeyedSpheres keyed_;                // the same; items are groups, or cells if each is one
   std::optional<SphereGroups> groups_;
   KeySorter sorter_;
   Order order_;

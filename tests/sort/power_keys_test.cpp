@@ -3,55 +3,103 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include <gtest/gtest.h>
+
+#include "sort/views.h"
 
 namespace tetraglass::sort {
 namespace {
 
-// Within the range of most powers, at its ends, and as far out as there are numbers.
-TEST(PowerKeys, FallAsThePowerGrows) {
-  std::vector<double> sample;
-  for (int i = 0; i < 1000; ++i) sample.push_back(-3 + 0.01 * i);
-  const PowerKeys keys(sample);
-  std::vector<double> powers = {-std::numeric_limits<double>::max(), -1e200, -1e30};
-  for (int exponent = 60; exponent >= -30; --exponent)
-    powers.push_back(-3 - std::ldexp(1, exponent));
-  for (int i = 0; i < 100000; ++i) powers.push_back(-3.5 + 1.1e-4 * i);
-  for (int exponent = 4; exponent <= 60; ++exponent) powers.push_back(std::ldexp(1, exponent));
-  powers.push_back(std::numeric_limits<double>::max());
-  std::sort(powers.begin(), powers.end());
-  powers.erase(std::unique(powers.begin(), powers.end()), powers.end());
-  std::size_t equal = 0;
-  for (std::size_t i = 1; i < powers.size(); ++i) {
-    ASSERT_LT(powers[i - 1], powers[i]);
-    ASSERT_GE(keys.key(powers[i - 1]), keys.key(powers[i])) << powers[i];
-    equal += keys.key(powers[i - 1]) == keys.key(powers[i]) ? 1 : 0;
+using Eigen::Vector3d;
+
+std::vector<std::uint32_t> items(std::size_t n) {
+  std::vector<std::uint32_t> result(n);
+  std::iota(result.begin(), result.end(), 100U);
+  return result;
+}
+
+std::vector<PowerSphere> random_spheres(std::size_t n) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<PowerSphere> spheres(n);
+  for (PowerSphere& sphere : spheres) {
+    sphere.center = {unit(random), unit(random), unit(random)};
+    sphere.constant = sphere.center.squaredNorm() - 0.1 * std::abs(unit(random));
+    sphere.center_error = sphere.constant_error = 0x1p-45;
   }
-  EXPECT_LT(equal, 30U);  // the very small and the very large steps
+  return spheres;
 }
 
-TEST(PowerKeys, OfOnePowerAreOneKey) {
-  const PowerKeys keys(std::vector<double>(10, 2.5));
-  EXPECT_EQ(keys.key(2.5), keys.key(2.5));
-  EXPECT_EQ(PowerKeys({}).key(1), PowerKeys({}).key(2));
+// In views that make little and much of the constants, and from afar.
+TEST(KeyedSpheres, KeysFallAsPowersGrowButForTheirDoubt) {
+  const std::vector<PowerSphere> spheres = random_spheres(20001);
+  const KeyedSpheres keyed(spheres, std::sqrt(3), 0, items(spheres.size()));
+  ASSERT_TRUE(keyed.far().empty());
+  for (const View& view : {parallel({1, 2, 3}), parallel({0, 0, 1}), from({0.2, 0.1, 0}),
+                           from({3, -4, 5}), from({1e9, 1e8, 0})}) {
+    const PowerOfEye power(view, Vector3d::Zero());
+    const KeyedSpheres::Keys keys = keyed.choose_keys(power);
+    EXPECT_LT(keys.doubt, 32U);
+    std::vector<KeyedItem> entries(spheres.size());
+    keyed.write(keys, 0, entries.size(), entries.data());
+    std::vector<std::uint32_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return power.of(spheres[a]) > power.of(spheres[b]);
+    });
+    std::uint32_t highest = 0;
+    for (const std::uint32_t i : order) {
+      EXPECT_EQ(item_of(entries[i]), i + 100);
+      const std::uint32_t key = key_of(entries[i]);
+      ASSERT_FALSE(highest > key && is_cut(keys, key, highest));
+      const KeyRange range = doubtful_range(keys, power.of(spheres[i]), power.doubt(spheres[i]));
+      ASSERT_LE(range.low, key);
+      ASSERT_GE(range.high, key);
+      ASSERT_LE(range.high - range.low, 4 * keys.doubt + 8);
+      highest = std::max(highest, key);
+    }
+    EXPECT_GT(highest, 1U << 31);
+  }
 }
 
-TEST(PowerKeys, AreCutOnlyWhereNoDoubtReaches) {
-  std::vector<KeyRange> doubtful = {{90, 100}, {10, 20}, {15, 30}};
-  join_overlapping(doubtful);
-  ASSERT_EQ(doubtful.size(), 2U);
-  EXPECT_EQ(doubtful[0].low, 10U);
-  EXPECT_EQ(doubtful[0].high, 30U);
-  CutFinder cuts(doubtful);
-  EXPECT_TRUE(cuts.is_cut(3, 5));
-  EXPECT_FALSE(cuts.is_cut(5, 6));    // next to each other
-  EXPECT_TRUE(cuts.is_cut(6, 9));     // before the first range
-  EXPECT_FALSE(cuts.is_cut(12, 18));  // both in it
-  EXPECT_FALSE(cuts.is_cut(28, 30));
-  EXPECT_TRUE(cuts.is_cut(30, 50));  // behind it
-  EXPECT_FALSE(cuts.is_cut(90, 100));
-  EXPECT_TRUE(cuts.is_cut(101, 103));
+TEST(KeyedSpheres, SetApartWhatIsOutOfProportion) {
+  std::vector<PowerSphere> spheres = random_spheres(10);
+  spheres[2].center = {1e6, 0, 0};
+  spheres[4].constant = -1e12;
+  spheres[7].center_error = 1e-3;
+  spheres[8].constant = std::numeric_limits<double>::infinity();
+  const KeyedSpheres keyed(spheres, std::sqrt(3), 0, items(10));
+  EXPECT_EQ(keyed.far(), (std::vector<std::uint32_t>{2, 4, 7, 8}));
+  const PowerOfEye power(from({5, 0, 0}), Vector3d::Zero());
+  const KeyedSpheres::Keys keys = keyed.choose_keys(power);
+  constexpr std::uint32_t kLast = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_EQ(doubtful_range(keys, power.of(spheres[2]), 0).low, kLast);  // the nearest of all
+  const KeyRange range = doubtful_range(keys, std::numeric_limits<double>::infinity(), 0);
+  EXPECT_EQ(range.low, 0U);
+  EXPECT_EQ(range.high, kLast);
+}
+
+TEST(KeyedSpheres, OfOnePowerAreNeverCut) {
+  const std::vector<PowerSphere> spheres(3, random_spheres(1).front());
+  const KeyedSpheres keyed(spheres, 2, 0, items(3));
+  const KeyedSpheres::Keys keys = keyed.choose_keys(PowerOfEye(from({5, 0, 0}), Vector3d::Zero()));
+  EXPECT_FALSE(is_cut(keys, 0, std::numeric_limits<std::uint32_t>::max()));
+}
+
+TEST(KeyRange, JoinedWhereTheyOverlap) {
+  std::vector<KeyRange> ranges = {{90, 100}, {10, 20}, {15, 30}, {30, 31}};
+  join_overlapping(ranges);
+  ASSERT_EQ(ranges.size(), 2U);
+  EXPECT_EQ(ranges[0].low, 10U);
+  EXPECT_EQ(ranges[0].high, 31U);
+  std::vector<sort::Run> runs = {{5, 7}, {1, 3}, {2, 4}, {4, 5}};
+  join_overlapping(runs);
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs[0].begin, 1U);
+  EXPECT_EQ(runs[0].end, 4U);
 }
 
 }  // namespace

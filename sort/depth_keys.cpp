@@ -1,7 +1,10 @@
-#include "sort/centroid_keys.h"
+#include "sort/depth_keys.h"
+
+#include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sort/centroid_keys.cpp"
+#define HWY_TARGET_INCLUDE "sort/depth_keys.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 #include <hwy/highway.h>
 
@@ -12,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Writes as many entries as vectors of `d` hold, from `begin` on; says where it ended. Products are
 // rounded before they are added, whether or not the machine could do without.
-template <class D>
+template <bool kHasW, class D>
 HWY_INLINE std::size_t write_vectors(D d, const DepthKeys& keys, const FixedPoints& points,
                                      const std::uint32_t* items, std::size_t begin,
                                      std::size_t count, KeyedItem* entries) {
@@ -36,10 +39,13 @@ HWY_INLINE std::size_t write_vectors(D d, const DepthKeys& keys, const FixedPoin
     const auto x = coordinate(points.x);
     const auto y = coordinate(points.y);
     const auto z = coordinate(points.z);
-    const auto norm = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+    const auto w = [&] {
+      if constexpr (kHasW) return coordinate(points.w);
+      return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+    }();
     const auto along =
         hn::Add(hn::Add(hn::Mul(linear_x, x), hn::Mul(linear_y, y)), hn::Mul(linear_z, z));
-    const auto depth = hn::Add(hn::Mul(square, norm), along);
+    const auto depth = hn::Add(hn::Mul(square, w), along);
     const auto steps = hn::Mul(hn::Sub(farthest, depth), scale);
     const auto key = hn::ConvertTo(di64, hn::Min(hn::Max(steps, hn::Zero(d)), last));
     hn::StoreU(hn::Or(hn::ShiftLeft<32>(hn::BitCast(du64, key)),
@@ -49,11 +55,17 @@ HWY_INLINE std::size_t write_vectors(D d, const DepthKeys& keys, const FixedPoin
   return i;
 }
 
+template <bool kHasW>
+void write_all(const DepthKeys& keys, const FixedPoints& points, const std::uint32_t* items,
+               std::size_t count, KeyedItem* entries) {
+  const std::size_t rest =
+      write_vectors<kHasW>(hn::ScalableTag<double>(), keys, points, items, 0, count, entries);
+  write_vectors<kHasW>(hn::CappedTag<double, 1>(), keys, points, items, rest, count, entries);
+}
+
 void write_entries(const DepthKeys& keys, const FixedPoints& points, const std::uint32_t* items,
                    std::size_t count, KeyedItem* entries) {
-  const std::size_t rest =
-      write_vectors(hn::ScalableTag<double>(), keys, points, items, 0, count, entries);
-  write_vectors(hn::CappedTag<double, 1>(), keys, points, items, rest, count, entries);
+  (points.w == nullptr ? write_all<false> : write_all<true>)(keys, points, items, count, entries);
 }
 
 }  // namespace tetraglass::sort::HWY_NAMESPACE
@@ -64,6 +76,11 @@ HWY_AFTER_NAMESPACE();
 namespace tetraglass::sort {
 
 HWY_EXPORT(write_entries);
+
+std::int32_t in_steps(double x) {
+  constexpr double kSteps = 0x1p31;
+  return static_cast<std::int32_t>(std::clamp(std::rint(x * kSteps), -kSteps, kSteps - 1));
+}
 
 void write_entries(const DepthKeys& keys, const FixedPoints& points, const std::uint32_t* items,
                    std::size_t count, KeyedItem* entries) {
