@@ -1,4 +1,5 @@
 // The native projector against the reference and against what is known in closed form.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "mesh/samples.h"
@@ -314,6 +316,42 @@ TEST(Cpu, ProjectorDrawsManyViews) {
           << what.name << ' ' << view.name;
       EXPECT_GT(stats.fragments, 0U);
     }
+  }
+}
+
+/// Every instruction set that the machine has draws what the widest one does.
+TEST(Cpu, InstructionSetsAgree) {
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 3000);
+  const mesh::ScalarField field = mesh::select_scalar(mesh, "");
+  const double diagonal = mesh::bounds(mesh).diagonal().norm();
+  const auto tf = preint::preset("viridis", field.min, field.max, diagonal);
+  struct InstructionSet {
+    std::string name;
+    std::int64_t target;
+  };
+  for (const InstructionSet& set :
+       {InstructionSet{"AVX2", HWY_AVX2}, {"SSE4", HWY_SSE4}, {"NEON", HWY_NEON}, {"none", 0}}) {
+    if ((hwy::SupportedTargets() & set.target) != set.target) {
+      fmt::print("{}: not on this machine\n", set.name);
+      continue;
+    }
+    double most = 0;
+    for (const Case& what : kCases) {
+      for (const View& view : views(mesh::bounds(mesh))) {
+        Scene scene = make_scene(mesh, what.mode, tf, 40);
+        scene.camera = view.camera;
+        scene.mip_of = what.mip_of;
+        const Image widest = draw(scene);
+        hwy::GetChosenTarget().Update(set.target);
+        const Image image = draw(scene);
+        hwy::GetChosenTarget().DeInit();
+        const double unit = what.mode == Mode::thickness ? diagonal : 1;
+        const double difference = compare(image, widest).max / unit;
+        EXPECT_LE(difference, 1e-6) << set.name << ", " << view.name << ", " << what.name;
+        most = std::max(most, difference);
+      }
+    }
+    fmt::print("{}: {:.1e}\n", set.name, most);
   }
 }
 
