@@ -33,9 +33,8 @@
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "mesh/mesh_data.h"
+#include "bench/random_delaunay.h"
 #include "mesh/samples.h"
-#include "mesh/tetrahedralize.h"
 #include "project/cpu/cell_projector.h"
 #include "project/gl/cell_projector.h"
 #include "project/reference/reference.h"
@@ -72,24 +71,6 @@ preint::TransferFunction transfer_function(const std::string& name, const mesh::
     }
   }
   return preint::TransferFunction(points);
-}
-
-/// Random points in a cube, and the smooth field of their places.
-mesh::TetMesh random_delaunay(int points) {
-  std::mt19937 random;
-  const auto coordinate = [&] { return random() * 0x1p-32; };
-  mesh::MeshData data;
-  std::vector<double> values;
-  for (int i = 0; i < points; ++i) {
-    const double x = coordinate();
-    const double y = coordinate();
-    const double z = coordinate();
-    data.points.emplace_back(x, y, z);
-    values.push_back(0.5 + 0.5 * std::sin(5 * x) * std::cos(4 * y + 2 * z));
-  }
-  data.fields.push_back({"wave", mesh::Location::point, 1, std::move(values)});
-  std::vector<std::string> notes;
-  return mesh::delaunay(data, notes);
 }
 
 /// One program's way to draw a scene from a view.
@@ -304,7 +285,7 @@ int main(int argc, char** argv) {
         "largest |\n|---|---:|---|---|---:|---:|---:|---:|\n",
         kSize, frames, kVerified);
     for (const std::string& name : names) {
-      const mesh::TetMesh mesh = name == "delaunay"     ? random_delaunay(23000)
+      const mesh::TetMesh mesh = name == "delaunay"     ? bench::random_delaunay(23000)
                                  : name == "orbital-1m" ? mesh::make_sample("orbital", 1000000)
                                                         : mesh::make_sample(name);
       for (const std::string function : {"smooth", "peaks"}) {

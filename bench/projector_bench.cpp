@@ -6,6 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/random_delaunay.h"
 #include "mesh/samples.h"
 #include "preint/transfer_function.h"
 #include "project/cpu/cell_projector.h"
@@ -43,7 +44,8 @@ preint::TransferFunction medium(const std::string& name, const mesh::ScalarField
 
 void frame(benchmark::State& state, const std::string& sample, std::size_t cells, Mode mode,
            const std::string& name, bool parallel) {
-  const mesh::TetMesh mesh = mesh::make_sample(sample, cells);
+  const mesh::TetMesh mesh =
+      sample == "delaunay" ? bench::random_delaunay(23000) : mesh::make_sample(sample, cells);
   const mesh::Box box = mesh::bounds(mesh);
   project::Scene scene;
   scene.mesh = &mesh;
@@ -91,6 +93,9 @@ BENCHMARK_CAPTURE(frame, sphere_full_opaque, "sphere", 0, Mode::full, "opaque", 
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(frame, orbital_full_smooth, "orbital", 0, Mode::full, "smooth", true)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(frame, delaunay_full_smooth, "delaunay", 0, Mode::full, "smooth", true)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(frame, orbital_1m_full_smooth, "orbital", 1000000, Mode::full, "smooth", true)

@@ -64,7 +64,8 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
         const int y = static_cast<int>(tile / bins_.tiles_x()) * tile_size;
         Worker& worker = workers.local();
         std::span<const std::uint32_t> cells = bins_.cells(tile);
-        if (blends) cells = worker.order.front_to_back(cells, cells_);
+        if (blends)
+          cells = worker.order.front_to_back(cells, cells_, points_, {x, y, tile_size, tile_size});
         fragments += draw_tile(picture, x, y, cells, worker.buffers).fragments;
       },
       tbb::simple_partitioner());

@@ -123,12 +123,42 @@ std::vector<std::uint16_t> blend_blocks(const Picture& picture, int x, int y,
   return violated;
 }
 
+/// The cells, in their order, with pixels in the rectangle around the blocks of a tile.
+std::vector<std::uint32_t> cells_over(const Picture& picture, int tile_x, int tile_y,
+                                      std::span<const std::uint32_t> cells,
+                                      std::span<const std::uint16_t> blocks) {
+  const int columns = picture.tile_size / kBlockWidth;
+  int left = columns;
+  int right = -1;
+  int top = columns * kBlockWidth;
+  int bottom = -1;
+  for (const int block : blocks) {
+    left = std::min(left, block % columns);
+    right = std::max(right, block % columns);
+    top = std::min(top, block / columns);
+    bottom = std::max(bottom, block / columns);
+  }
+  const int first_x = tile_x + left * kBlockWidth;
+  const int last_x = tile_x + (right + 1) * kBlockWidth - 1;
+  const int first_y = tile_y + top * kBlockHeight;
+  const int last_y = tile_y + (bottom + 1) * kBlockHeight - 1;
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t cell : cells) {
+    const PixelBounds& bounds = picture.cells->cells[cell].bounds;
+    if (bounds.first_x <= last_x && bounds.last_x >= first_x && bounds.first_y <= last_y &&
+        bounds.last_y >= first_y) {
+      result.push_back(cell);
+    }
+  }
+  return result;
+}
+
 /// Modes that blend.
 template <class Shader>
 TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                      TileBuffers::Contents& buffers) {
   constexpr std::size_t kWindow = 16;       // enough for nearly all blocks of meshes without cycles
-  constexpr std::size_t kWider = 8;         // times, where it was not
+  constexpr std::size_t kWider = 4;         // times, where it was not
   constexpr std::size_t kMemory = 1 << 22;  // floats of all delay lines of one pass
   FrontToBack image(buffers.accumulators.get());
   const auto side = static_cast<std::size_t>(picture.tile_size);
@@ -139,6 +169,7 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
       blend_blocks<Shader>(picture, x, y, cells, blocks, kWindow, buffers, image, stats.fragments);
   stats.redone = blocks.size();
   for (std::size_t window = kWindow * kWider; !blocks.empty(); window *= kWider) {
+    const std::vector<std::uint32_t> covering = cells_over(picture, x, y, cells, blocks);
     const std::size_t at_once =
         std::max<std::size_t>(1, kMemory / (window * FragmentLines::kRecord));
     std::vector<std::uint16_t> violated;
@@ -147,7 +178,7 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
           first, std::min(at_once, blocks.size() - first));
       std::uint64_t again = 0;
       const std::vector<std::uint16_t> left =
-          blend_blocks<Shader>(picture, x, y, cells, part, window, buffers, image, again);
+          blend_blocks<Shader>(picture, x, y, covering, part, window, buffers, image, again);
       violated.insert(violated.end(), left.begin(), left.end());
     }
     blocks = std::move(violated);

@@ -5,17 +5,21 @@
 #include <vector>
 
 #include "project/cpu/drawn_cells.h"
+#include "project/cpu/view_points.h"
 
 namespace tetraglass::project::cpu {
 
-/// Puts cells in the order of their distances (see DrawnCell). Keeps its memory.
+/// Puts the cells of a tile in the order of their distances: of their centroids, of large cells of
+/// what lies in the tile. Keeps its memory.
 class TileOrder {
  public:
   /// The nearest first; in parallel views by depth. Distances are told apart to 2^-22 of the span
   /// from the nearest to the farthest; equal ones stay in their order. Cost: linear. Valid until
   /// the next call.
   [[nodiscard]] std::span<const std::uint32_t> front_to_back(std::span<const std::uint32_t> cells,
-                                                             const DrawnCells& drawn);
+                                                             const DrawnCells& drawn,
+                                                             const ViewPoints& points,
+                                                             const Region& tile);
 
  private:
   struct Entry {
