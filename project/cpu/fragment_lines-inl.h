@@ -102,13 +102,12 @@ class FragmentLines {
 
   HWY_INLINE void insert(std::size_t line, std::size_t block, Lanes covered, Fragment fragment) {
     Line& state = lines_[line];
-    const Float last = hn::Load(FloatTag(), last_keys_ + line * kLanes);
+    if (state.count == window_ && !state.opaque) composite_first(line, block);
     if (HWY_UNLIKELY(state.opaque)) {
+      const Float last = hn::Load(FloatTag(), last_keys_ + line * kLanes);
       note_violation(state, hn::And(covered, hn::Lt(fragment.key(), last)));
       return;
     }
-    if (state.count == window_) composite_first(line, block);
-    if (state.opaque) return;
     // Lanes that are not covered take the key before: they are in order wherever they are.
     std::size_t i = state.count;
     const Float before = i > 0 ? hn::Load(FloatTag(), record(line, i - 1))
