@@ -118,7 +118,7 @@ void print_for_people(const std::string& file, const Json& json) {
   }
   fmt::print(
       "  {} zero-volume, {} inverted (turned), {} values not finite, {} faces with more than two "
-      "cells\n",
+      "cells or with a doubled one\n",
       json["degenerate"].get<std::size_t>(), json["inverted"].get<std::size_t>(),
       json["nan_values"].get<std::size_t>(), json["crowded_faces"].get<std::size_t>());
   fmt::print("  {} part(s), {} boundary faces, {}, {}\n", json["parts"].get<std::size_t>(),

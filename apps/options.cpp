@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -35,13 +36,20 @@ double parse_number(std::string_view text, std::string_view option) {
 }
 
 int parse_count(std::string_view text, std::string_view option, int least) {
-  int value = 0;
+  double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least) {
+  const bool whole =
+      error == std::errc() && end == text.data() + text.size() && value == std::floor(value);
+  if (!whole || value < least) {
     throw base::UsageError(
         fmt::format("{} needs a whole number of at least {}, not '{}'", option, least, text));
   }
-  return value;
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (value > kMost) {
+    throw base::UsageError(
+        fmt::format("{} can be no more than {}, and not '{}'", option, kMost, text));
+  }
+  return static_cast<int>(value);
 }
 
 std::vector<double> parse_numbers(std::string_view text, std::string_view option, std::size_t least,

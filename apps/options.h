@@ -16,7 +16,7 @@ namespace tetraglass::apps {
 /// A finite number.
 [[nodiscard]] double parse_number(std::string_view text, std::string_view option);
 
-/// A whole number >= `least`.
+/// A whole number >= `least`, such as 1000000 or 1e6.
 [[nodiscard]] int parse_count(std::string_view text, std::string_view option, int least);
 
 /// Between `least` and `most` numbers with commas between them.

@@ -1,10 +1,12 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/options.h"
 #include "apps/subcommands.h"
 #include "base/output_file.h"
 #include "mesh/samples.h"
@@ -16,7 +18,7 @@ void add_sample(CLI::App& program) {
   struct Arguments {
     std::string name;
     std::string output;
-    std::size_t cells = 0;
+    std::optional<std::string> cells;
   };
   CLI::App* app = program.add_subcommand("sample", "Make a test mesh with a known field");
   auto arguments = std::make_shared<Arguments>();
@@ -26,11 +28,14 @@ void add_sample(CLI::App& program) {
       ->required();
   app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
   app->add_option("--cells", arguments->cells,
-                  "About how many cells (default: the size of the published data sets)")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{200'000'000}));
+                  "About how many cells, such as 1e6 (default: the size of the published data "
+                  "sets)");
   app->callback([arguments] {
+    const std::size_t cells =
+        !arguments->cells ? 0
+                          : static_cast<std::size_t>(parse_count(*arguments->cells, "--cells", 1));
     { const base::OutputFile probe(arguments->output); }
-    const mesh::TetMesh mesh = mesh::make_sample(arguments->name, arguments->cells);
+    const mesh::TetMesh mesh = mesh::make_sample(arguments->name, cells);
     mesh::write_vtu(mesh, arguments->output);
     fmt::print(stderr, "{}: {} tetrahedra, {} points\n", arguments->output, mesh.cells.size(),
                mesh.points.size());

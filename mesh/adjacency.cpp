@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <memory>
+#include <utility>
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace tetraglass::mesh {
 namespace {
@@ -178,6 +182,39 @@ Tally link_partition(const Face* begin, const Face* end, const Layout& layout, W
   return tally;
 }
 
+bool same_vertices(Cell a, Cell b) {
+  std::ranges::sort(a);
+  std::ranges::sort(b);
+  return a == b;
+}
+
+// Parts the cells that are linked to a double of theirs, and counts the faces. Of doubles all four
+// faces are the same triangles: either these have no third cell and the two are linked four times,
+// or one of them is crowded.
+std::size_t part_doubles(const TetMesh& mesh, Adjacency& adjacency) {
+  const bool any_crowded = adjacency.crowded_faces > 0;
+  constexpr std::size_t kGrain = 4096;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, mesh.cells.size(), kGrain), std::size_t{0},
+      [&](const tbb::blocked_range<std::size_t>& range, std::size_t parted) {
+        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+          std::array<std::uint32_t, 4>& neighbors = adjacency.neighbors[cell];
+          if (!any_crowded && !(neighbors[0] == neighbors[1] && neighbors[0] == neighbors[2])) {
+            continue;
+          }
+          for (std::uint32_t& neighbor : neighbors) {
+            if (neighbor == kNoCell || !same_vertices(mesh.cells[cell], mesh.cells[neighbor])) {
+              continue;
+            }
+            parted += cell < neighbor ? 1 : 0;
+            neighbor = kNoCell;  // the double sees to its own side
+          }
+        }
+        return parted;
+      },
+      std::plus<>());
+}
+
 }  // namespace
 
 Adjacency face_adjacency(const TetMesh& mesh) {
@@ -197,6 +234,7 @@ Adjacency face_adjacency(const TetMesh& mesh) {
     adjacency.boundary_faces += tally.boundary;
     adjacency.crowded_faces += tally.crowded;
   }
+  adjacency.crowded_faces += part_doubles(mesh, adjacency);
   return adjacency;
 }
 

@@ -16,8 +16,8 @@ struct Adjacency {
   std::vector<std::array<std::uint32_t, 4>> neighbors;
   /// Faces with one cell.
   std::size_t boundary_faces = 0;
-  /// Triangles with more than two cells, or with one cell twice (whose vertices repeat); they are
-  /// linked to none.
+  /// Triangles with more than two cells, one cell twice (whose vertices repeat), or two cells of
+  /// the same four vertices (doubles, which lie on the same side of them); they are linked to none.
   std::size_t crowded_faces = 0;
 };
 

@@ -17,7 +17,7 @@ struct Soundness {
   /// Face-connected components.
   std::size_t parts = 0;
   std::size_t boundary_faces = 0;
-  /// Faces with more than two cells: overlapping or doubled cells.
+  /// Faces with more than two cells, or with a cell and its double: cells overlap there.
   std::size_t crowded_faces = 0;
   /// Decided exactly: there is one part, and its boundary is one closed surface of genus 0 whose
   /// every edge is convex or flat. Holes and cavities exclude it; so do boundary triangles of no

@@ -143,7 +143,7 @@ void Splitter::split_cell(std::size_t cell) {
                                        shape->name, points.size(), least));
   }
   check_indices(cell, points);
-  if (points.size() > corner_count) ++out_.nonlinear;
+  if (points.size() > corner_count) ++out_.nonlinear[type];
 
   std::array<std::uint32_t, 12> corners{};
   std::ranges::copy(points.first(corner_count), corners.begin());

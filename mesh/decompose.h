@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 
 #include "mesh/mesh_data.h"
 #include "mesh/tet_mesh.h"
@@ -13,8 +14,8 @@ struct Decomposition {
   std::size_t unknown = 0;   ///< cells of a type that cannot be split
   std::size_t inverted = 0;  ///< tetrahedra (of the input, or parts of a cell) that were negatively
                              ///< oriented and have been turned
-  std::size_t collapsed = 0;  ///< parts of a cell that name a point twice, left out
-  std::size_t nonlinear = 0;  ///< cells of higher order, reduced to their corners
+  std::size_t collapsed = 0;                  ///< parts of a cell that name a point twice, left out
+  std::map<CellType, std::size_t> nonlinear;  ///< cells of higher order, reduced to their corners
 };
 
 /// Splits every cell of dimension 3 into tetrahedra. A face with more than three points is cut by

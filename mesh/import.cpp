@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <new>
 #include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
@@ -171,7 +173,20 @@ Kind kind_of(const ImportReport& report, bool may_be_points) {
       report.input_cells.empty() ? "no cells" : "no cells that tetrahedra could be made of"));
 }
 
+/// Says which cells have been reduced to their corners.
+std::string tell_reduced(const std::map<CellType, std::size_t>& cells) {
+  std::size_t sum = 0;
+  std::vector<std::string> types;
+  for (const auto& [type, count] : cells) {
+    sum += count;
+    types.push_back(fmt::format("{} {}", count, to_string(type)));
+  }
+  return fmt::format("{} cells of higher order are drawn by their corners: {}", sum,
+                     fmt::join(types, ", "));
+}
+
 TetMesh split_solids(MeshData data, const ImportOptions& options, ImportReport& report) {
+  const std::size_t unused_before = options.refine_quadratic ? unused_points(data) : 0;
   const Linearization linear = linearize(std::move(data), options.refine_quadratic);
   if (linear.cut > 0) {
     report.notes.push_back(fmt::format(
@@ -188,7 +203,11 @@ TetMesh split_solids(MeshData data, const ImportOptions& options, ImportReport& 
   };
   note(split.unknown, "cells of an unknown type are left out");
   note(split.collapsed, "parts of collapsed cells are left out");
-  note(split.nonlinear, "cells of higher order are drawn by their corners");
+  if (!split.nonlinear.empty()) report.notes.push_back(tell_reduced(split.nonlinear));
+  if (options.refine_quadratic) {
+    note(unused_points(linear.mesh) - unused_before,
+         "points within triangles and pyramids, which no piece uses, are left out");
+  }
   return std::move(split.mesh);
 }
 

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -39,16 +41,35 @@ double linear(const Vector3d& p) {
   return 0.5 + (p.x() + 2 * p.y() + 3 * p.z()) / 12;
 }
 
-// Before a sample is made: whether it and what is needed to write it fit into this machine.
-void check_sample_fits(double points, double cells) {
-  const double bytes = 2 * (cells * sizeof(Cell) + points * (sizeof(Vector3d) + sizeof(double)));
-  const double memory =
-      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (bytes <= memory) return;
+// Bytes that are not in use, of this machine; those of all its memory where that is not told.
+double available_memory() {
+  std::ifstream stream("/proc/meminfo");
+  std::string key;
+  double kilobytes = 0;
+  std::string unit;
+  while (stream >> key >> kilobytes && std::getline(stream, unit)) {
+    if (key == "MemAvailable:") return 1024 * kilobytes;
+  }
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+// Before a sample is made: whether it will fit into the memory.
+void check_sample_fits(double cells, double bytes) {
+  constexpr double kProgram = 1.2e8;
+  const double memory = available_memory();
+  if (bytes + kProgram <= memory) return;
   constexpr double kGigabyte = 1e9;
   throw base::UsageError(
-      fmt::format("a sample of {:.3g} cells takes {:.3g} GB of memory; this machine has {:.3g} GB",
-                  cells, bytes / kGigabyte, memory / kGigabyte));
+      fmt::format("a sample of {:.3g} cells takes {:.3g} GB of memory; {:.3g} GB are free", cells,
+                  bytes / kGigabyte, memory / kGigabyte));
+}
+
+// What a mesh takes with the copy of it that is written: of each cell its indices, in 32 bits here
+// and in 64 there, where it begins and its type; of each point its place and the field, twice.
+double bytes_of_grid(double points, double cells) {
+  return cells * (sizeof(Cell) + 5 * sizeof(std::int64_t) + 1) +
+         points * 2 * (sizeof(Vector3d) + sizeof(double));
 }
 
 // The number of points along an edge for which 5 (n - 1)^3 comes nearest to `cells`.
@@ -62,7 +83,7 @@ std::size_t grid_size(double cells) {
         "a sample of {:.0f} cells has more points than 32-bit indices can number; ask for fewer",
         cells));
   }
-  check_sample_fits(points, count(voxels));
+  check_sample_fits(count(voxels), bytes_of_grid(points, count(voxels)));
   return static_cast<std::size_t>(voxels) + 1;
 }
 
@@ -191,11 +212,18 @@ TetMesh make_cycle(std::size_t cells) {
     throw base::UsageError(
         "a sample of so many cells has more points than 32-bit indices can number");
   }
-  check_sample_fits(3.0 * double(sections), 3.0 * double(sections));
+  const double size = 3.0 * double(sections);
+  check_sample_fits(size, bytes_of_grid(size, size));
   TetMesh mesh;
   add_ring(mesh, static_cast<std::uint32_t>(sections));
   add_bars(mesh);
   return mesh;
+}
+
+TetMesh make_heat_sink_that_fits(std::size_t cells) {
+  constexpr double kBytesPerCell = 600;  // of TetGen and the solver, as measured
+  check_sample_fits(double(cells), double(cells) * kBytesPerCell);
+  return make_heat_sink(cells);
 }
 
 struct Sample {
@@ -208,7 +236,7 @@ constexpr std::array kSamples = {
     Sample{"orbital", make_grid, orbital}, Sample{"sphere", make_grid, distance_from_origin},
     Sample{"linear", make_grid, linear},   Sample{"needles", make_needles, linear},
     Sample{"shells", make_shells, linear}, Sample{"cavity", make_cavity, linear},
-    Sample{"cycle", make_cycle, linear},   Sample{"heat-sink", make_heat_sink, nullptr},
+    Sample{"cycle", make_cycle, linear},   Sample{"heat-sink", make_heat_sink_that_fits, nullptr},
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ class CommandLine : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     const ProgramRun made =
-        run_program("sample sphere --cells 3000 -o " + folder_->file("sphere.vtu"));
+        run_program("sample sphere --cells 3e3 -o " + folder_->file("sphere.vtu"));
     ASSERT_EQ(made.status, 0) << made.err;
     EXPECT_EQ(made.out, folder_->file("sphere.vtu") + "\n");
   }
@@ -299,6 +299,13 @@ TEST_F(CommandLine, WrongUsageShowsTheRightOne) {
   expect_error("render " + sphere() + out + " --fov 200", 2, "--fov");
   expect_error("render " + sphere() + out + " --eye 0,0,9 --target 0,0,9", 2, "eye and target");
   expect_error("sample orbitl -o " + output_.file("x.vtu"), 2, "'orbital'");
+  const std::string sample = "sample orbital -o " + output_.file("x.vtu") + " --cells ";
+  expect_error(sample + "0", 2, "--cells needs a whole number of at least 1");
+  expect_error(sample + "1.5", 2, "--cells needs a whole number of at least 1");
+  expect_error(sample + "1e10", 2, "--cells can be no more than 2147483647");
+  // Of what can be asked for, the most memory: 150 GB as a grid, over 1 TB by TetGen.
+  expect_error(sample + "2e9", 2, "GB of memory");
+  expect_error("sample heat-sink --cells 2e9 -o " + output_.file("x.vtu"), 2, "GB of memory");
   EXPECT_TRUE(output_.is_empty());
 }
 

@@ -127,7 +127,7 @@ TEST(ImportCommand, MaxVolumeBoundsTetrahedraAndTellsTheLargest) {
 #endif
 }
 
-#ifdef TETRAGLASS_WITH_TETGEN
+#if defined(TETRAGLASS_WITH_TETGEN) || defined(TETRAGLASS_WITH_CGAL)
 
 /// What the command prints on a terminal.
 std::string on_terminal(const std::string& arguments) {
@@ -138,22 +138,30 @@ std::string on_terminal(const std::string& arguments) {
   return read_text(folder.file("typescript"));
 }
 
-TEST(ImportCommand, LongWorkShowsABarOnATerminalAlone) {
-  if (std::system("script --version >/dev/null 2>&1") != 0) {
-    GTEST_SKIP() << "the program 'script', which makes a terminal, is not there";
-  }
+/// Fills a cube, which takes over a second.
+void expect_bar_on_a_terminal_alone(const std::string& options, const std::string& label) {
   const TemporaryFolder folder;
   const std::string cube = folder.file("cube.off");
   write_cube(cube);
-  const std::string work =
-      "import " + cube + " --max-volume 4e-6 -o " + folder.file("cube.vtu");  // over a second
+  const std::string work = "import " + cube + " " + options + " -o " + folder.file("cube.vtu");
   const std::string shown = on_terminal(work);
-  const std::size_t bar = shown.find("\r\033[KTetGen");
-  ASSERT_NE(bar, std::string::npos) << shown;
+  EXPECT_NE(shown.find("\r\033[K" + label), std::string::npos) << shown;
   const ProgramRun quiet = run_program(work);
   EXPECT_EQ(quiet.status, 0) << quiet.err;
   EXPECT_EQ(quiet.err.find('\r'), std::string::npos) << quiet.err;
   EXPECT_EQ(quiet.err.find('\033'), std::string::npos) << quiet.err;
+}
+
+TEST(ImportCommand, LongWorkShowsABarOnATerminalAlone) {
+  if (std::system("script --version >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "the program 'script', which makes a terminal, is not there";
+  }
+#ifdef TETRAGLASS_WITH_TETGEN
+  expect_bar_on_a_terminal_alone("--max-volume 4e-6", "TetGen");
+#endif
+#ifdef TETRAGLASS_WITH_CGAL
+  expect_bar_on_a_terminal_alone("--tetrahedralize cgal --max-volume 1e-4", "CGAL");
+#endif
 }
 
 #endif

@@ -24,6 +24,11 @@ Triple face_of(const Cell& cell, std::size_t face) {
   return triple;
 }
 
+Cell sorted(Cell cell) {
+  std::ranges::sort(cell);
+  return cell;
+}
+
 // The same by a map from faces to cells: slow and obvious.
 Adjacency by_map(const TetMesh& mesh) {
   std::map<Triple, std::vector<std::pair<std::uint32_t, std::size_t>>> owners;
@@ -35,7 +40,8 @@ Adjacency by_map(const TetMesh& mesh) {
   for (const auto& [face, cells] : owners) {
     if (cells.size() == 1) {
       ++result.boundary_faces;
-    } else if (cells.size() == 2 && cells[0].first != cells[1].first) {
+    } else if (cells.size() == 2 &&
+               sorted(mesh.cells[cells[0].first]) != sorted(mesh.cells[cells[1].first])) {
       result.neighbors[cells[0].first][cells[0].second] = cells[1].first;
       result.neighbors[cells[1].first][cells[1].second] = cells[0].first;
     } else {
@@ -116,6 +122,36 @@ TEST(Adjacency, LinksCrowdedFacesToNone) {
   mesh.cells = {{0, 1, 2, 3}, {1, 1, 2, 3}};  // the second cell has the face 123 twice
   expect_same(mesh);
   EXPECT_EQ(face_adjacency(mesh).crowded_faces, 1U);
+}
+
+TEST(Adjacency, LinksNoCellToItsDouble) {
+  // Alone, a cell and its double share all four faces.
+  TetMesh twice = tests::unit_tetrahedron();
+  twice.cells.push_back({2, 1, 0, 3});
+  const Adjacency alone = face_adjacency(twice);
+  EXPECT_EQ(alone.crowded_faces, 4U);
+  EXPECT_EQ(alone.boundary_faces, 0U);
+  for (const auto& neighbors : alone.neighbors) {
+    EXPECT_EQ(neighbors, (std::array{kNoCell, kNoCell, kNoCell, kNoCell}));
+  }
+  // On the hull of a mesh, the double of a cell must not hide that the mesh ends there.
+  TetMesh box = tests::box({0, 0, 0}, {1, 1, 1}, 3, 3, 3, [](const auto&) { return 0.0; });
+  const Adjacency before = face_adjacency(box);
+  for (const std::uint32_t cell : {0U, 40U, 161U}) {
+    SCOPED_TRACE(cell);
+    TetMesh doubled = box;
+    doubled.cells.push_back(box.cells[cell]);
+    std::swap(doubled.cells.back()[0], doubled.cells.back()[2]);
+    const Adjacency after = face_adjacency(doubled);
+    const auto open = static_cast<std::size_t>(std::ranges::count(before.neighbors[cell], kNoCell));
+    EXPECT_EQ(after.crowded_faces, 4U);
+    EXPECT_EQ(after.boundary_faces, before.boundary_faces - open);
+    for (const std::uint32_t c : {cell, static_cast<std::uint32_t>(box.cells.size())}) {
+      EXPECT_EQ(after.neighbors[c], (std::array{kNoCell, kNoCell, kNoCell, kNoCell}));
+    }
+    expect_same(doubled);
+    expect_same(shuffled(doubled, cell));
+  }
 }
 
 // One vertex that every cell has: all faces but the outer ones fall to it.

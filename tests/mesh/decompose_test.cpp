@@ -12,17 +12,14 @@
 #include "base/errors.h"
 #include "mesh/adjacency.h"
 #include "support/meshes.h"
+#include "support/total_volume.h"
 
 namespace tetraglass::mesh {
 namespace {
 
 using Eigen::Vector3d;
 
-double total_volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (const Cell& cell : mesh.cells) sum += tests::volume(mesh, cell);
-  return sum;
-}
+using tests::total_volume;
 
 /// One cell of the given shape in its usual place, with a known volume.
 struct Sample {
@@ -327,7 +324,7 @@ TEST(Decompose, HigherOrderIsReducedToCorners) {
   std::iota(ten.begin(), ten.end(), 0U);
   data.add_cell(CellType::quadratic_tetra, ten);
   const Decomposition split = decompose(data);
-  EXPECT_EQ(split.nonlinear, 1U);
+  EXPECT_EQ(split.nonlinear.at(CellType::quadratic_tetra), 1U);
   EXPECT_EQ(split.mesh.cells.size(), 1U);
   EXPECT_EQ(split.mesh.points.size(), 4U);
 }

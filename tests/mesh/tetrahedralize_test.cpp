@@ -12,19 +12,15 @@
 #include "mesh/self_intersection.h"
 #include "mesh/triangle_surface.h"
 #include "support/meshes.h"
+#include "support/total_volume.h"
 
 namespace tetraglass::mesh {
 namespace {
 
 using Eigen::Vector3d;
 
-[[maybe_unused]] double total_volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (const Cell& cell : mesh.cells) sum += tests::volume(mesh, cell);
-  return sum;
-}
-
 using tests::add_cube;
+using tests::total_volume;
 
 [[maybe_unused]] std::string refusal(const MeshData& data) {
   std::vector<std::string> notes;
