@@ -90,21 +90,24 @@ std::vector<preint::Isosurface> make_isosurfaces(
   return surfaces;
 }
 
-/// Of a picture whose size is known.
-void set_sampling(const RenderArguments& arguments, project::Scene& scene) {
-  if (!arguments.samples.empty()) {
-    const int count = parse_count(arguments.samples, "--samples", 1);
-    const int side = static_cast<int>(std::lround(std::sqrt(count)));
-    if (side * side != count) {
-      throw base::UsageError(
-          fmt::format("--samples {} do not share a pixel evenly; the nearest that do are {} and {}",
-                      count, count > side * side ? side * side : (side - 1) * (side - 1),
-                      count > side * side ? (side + 1) * (side + 1) : side * side));
-    }
-    check_side(std::max(scene.width, scene.height), side);
-    scene.samples = side;
+/// Samples each way of a picture whose size is known.
+int parse_samples(const RenderArguments& arguments, const project::Scene& scene) {
+  if (arguments.samples.empty()) return 1;
+  const int count = parse_count(arguments.samples, "--samples", 1);
+  const int side = static_cast<int>(std::sqrt(count));
+  if (side * side != count) {
+    throw base::UsageError(
+        fmt::format("--samples {} do not share a pixel evenly; the nearest that do are {} and {}",
+                    count, side * side, (side + 1) * (side + 1)));
   }
-  if (arguments.region.empty()) return;
+  check_side(std::max(scene.width, scene.height), side);
+  return side;
+}
+
+/// Of a picture whose size is known.
+std::optional<project::Region> parse_region(const RenderArguments& arguments,
+                                            const project::Scene& scene) {
+  if (arguments.region.empty()) return std::nullopt;
   std::array<int, 4> pixels{};
   const std::vector<double> numbers = parse_numbers(arguments.region, "--region", 4, 4);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -115,11 +118,12 @@ void set_sampling(const RenderArguments& arguments, project::Scene& scene) {
     }
     pixels[i] = static_cast<int>(numbers[i]);
   }
-  if (pixels[0] + pixels[2] > scene.width || pixels[1] + pixels[3] > scene.height) {
+  const project::Region region{pixels[0], pixels[1], pixels[2], pixels[3]};
+  if (region.x + region.width > scene.width || region.y + region.height > scene.height) {
     throw base::UsageError(fmt::format("--region {} leaves the picture of {} x {} pixels",
                                        arguments.region, scene.width, scene.height));
   }
-  scene.region = project::Region{pixels[0], pixels[1], pixels[2], pixels[3]};
+  return region;
 }
 
 std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& arguments) {
@@ -189,7 +193,8 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   project::Scene scene;
   scene.mesh = &mesh;
   std::tie(scene.width, scene.height) = parse_size(arguments.size, "--size");
-  set_sampling(arguments, scene);
+  scene.samples = parse_samples(arguments, scene);
+  scene.region = parse_region(arguments, scene);
   scene.mode = parse_choice<Mode>(arguments.mode, "--mode",
                                   {{"full", Mode::full},
                                    {"emission", Mode::emission},

@@ -14,13 +14,11 @@
 
 #include <fmt/format.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkProjectedTetrahedraMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -34,6 +32,7 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "bench/random_delaunay.h"
+#include "bench/vtk_grid.h"
 #include "mesh/samples.h"
 #include "project/cpu/cell_projector.h"
 #include "project/gl/cell_projector.h"
@@ -85,17 +84,7 @@ struct Contender {
 class VtkScene {
  public:
   VtkScene(const project::Scene& scene, vtkUnstructuredGridVolumeMapper* mapper) : mapper_(mapper) {
-    const mesh::TetMesh& mesh = *scene.mesh;
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const Eigen::Vector3d& p : mesh.points) points->InsertNextPoint(p.data());
-    vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(points);
-    grid->Allocate(static_cast<vtkIdType>(mesh.cells.size()));
-    for (const mesh::Cell& cell : mesh.cells) {
-      const vtkIdType ids[4] = {cell[0], cell[1], cell[2], cell[3]};
-      grid->InsertNextCell(VTK_TETRA, 4, ids);
-    }
+    const vtkNew<vtkUnstructuredGrid> grid = bench::vtk_grid(*scene.mesh);
     vtkNew<vtkDoubleArray> values;
     values->SetName("field");
     for (const double value : scene.field.values) values->InsertNextValue(value);

@@ -11,8 +11,10 @@
 
 namespace tetraglass::bench {
 
-/// The Delaunay tetrahedra of random points in the unit cube, some 6.7 a point, with the field
-/// `wave`: slivers among them, and large flat ones on the hull.
+inline constexpr double kCellsPerPoint = 6.7;
+
+/// The Delaunay tetrahedra of random points in the unit cube, about kCellsPerPoint each, with the
+/// field `wave`: slivers among them, and large flat ones on the hull.
 inline mesh::TetMesh random_delaunay(int points) {
   std::mt19937 random;
   const auto coordinate = [&] { return random() * 0x1p-32; };

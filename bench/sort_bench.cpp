@@ -5,24 +5,22 @@
 #include <map>
 #include <memory>
 #include <numeric>
-#include <random>
 #include <string>
 #include <utility>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkCellCenterDepthSort.h>
 #include <vtkIdTypeArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "base/errors.h"
+#include "bench/random_delaunay.h"
+#include "bench/vtk_grid.h"
 #include "mesh/samples.h"
-#include "mesh/tetrahedralize.h"
 #include "sort/cell_sorter.h"
 
 namespace {
@@ -31,25 +29,15 @@ using namespace tetraglass;
 using Eigen::Vector3d;
 using sort::Method;
 
-// Of uniformly random points; about `cells` tetrahedra.
-mesh::TetMesh random_delaunay(std::size_t cells) {
-  constexpr double kCellsPerPoint = 6.7;
-  std::mt19937 random(6);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  mesh::MeshData data;
-  data.points.resize(static_cast<std::size_t>(static_cast<double>(cells) / kCellsPerPoint));
-  for (Vector3d& p : data.points) p = {unit(random), unit(random), unit(random)};
-  std::vector<std::string> notes;
-  return mesh::delaunay(data, notes);
-}
-
 // The last mesh made is kept: benchmarks of one mesh follow each other.
 const mesh::TetMesh& make_mesh(const std::string& name, std::int64_t cells) {
   static std::pair<std::string, std::int64_t> which;
   static mesh::TetMesh mesh;
   if (which != std::pair(name, cells)) {
     const auto n = static_cast<std::size_t>(cells);
-    mesh = name == "random" ? random_delaunay(n) : mesh::make_sample(name, n);
+    mesh = name == "random" ? bench::random_delaunay(static_cast<int>(static_cast<double>(cells) /
+                                                                      bench::kCellsPerPoint))
+                            : mesh::make_sample(name, n);
     which = {name, cells};
   }
   return mesh;
@@ -84,28 +72,10 @@ void order(benchmark::State& state, const std::string& name, Method method, bool
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.size()));
 }
 
-vtkNew<vtkUnstructuredGrid> to_vtk(const mesh::TetMesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
-  }
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 4);
-  for (const mesh::Cell& cell : mesh.cells) {
-    std::array<vtkIdType, 4> ids{};
-    std::copy(cell.begin(), cell.end(), ids.begin());
-    grid->InsertNextCell(10 /* VTK_TETRA */, 4, ids.data());
-  }
-  return grid;
-}
-
 // Also by centroids, to the end: it sorts further while it hands out the cells.
 void vtk_cell_center_depth_sort(benchmark::State& state, const std::string& name, bool parallel) {
   const mesh::TetMesh& mesh = make_mesh(name, state.range(0));
-  const vtkNew<vtkUnstructuredGrid> grid = to_vtk(mesh);
+  const vtkNew<vtkUnstructuredGrid> grid = bench::vtk_grid(mesh);
   const vtkNew<vtkCamera> camera;
   const vtkNew<vtkMatrix4x4> model;
   camera->SetParallelProjection(parallel ? 1 : 0);

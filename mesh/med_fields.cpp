@@ -108,10 +108,7 @@ void MedFields::read(const std::string& time) {
   if (!times.empty()) {
     const std::size_t step = find_time_step(time, times);
     wanted = times[step];
-    if (times.size() > 1) {
-      mesh_.notes.push_back(
-          fmt::format("time step {} of {} (time {:g})", step, times.size(), times[step]));
-    }
+    note_time_step(mesh_.notes, step, times);
   }
   for (const Variable& variable : all) {
     // Of several iterations of one step the last one counts.

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
 #include <vtkCGNSReader.h>
-#include <vtkCompositeDataIterator.h>
-#include <vtkDataSet.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "base/errors.h"
-#include "mesh/append.h"
 #include "mesh/read_apart.h"
 #include "mesh/time_step.h"
 #include "mesh/vtk_dataset.h"
@@ -24,12 +19,6 @@ namespace tetraglass::mesh {
 namespace {
 
 constexpr unsigned kSeconds = 600;
-
-void check(const std::string& file, const VtkMessages& messages) {
-  if (!messages.errors().empty()) {
-    throw base::ReadError(file, "is damaged or not complete: " + messages.errors().front());
-  }
-}
 
 /// Pyramids of 13 points, which VTK 9.1 hands over as cells of no type, get it. The triangles of
 /// wedges are exchanged: those of CGNS have the first one seen from inside, VTK's from outside. The
@@ -57,7 +46,7 @@ MeshData read_zones(const std::string& file, const std::string& time) {
   reader->SetFileName(file.c_str());
   reader->SetDoublePrecisionMesh(1);
   reader->UpdateInformation();
-  check(file, messages);
+  messages.refuse_damage(file);
   reader->EnableAllBases();
   reader->EnableAllFamilies();
   reader->EnableAllPointArrays();
@@ -74,22 +63,11 @@ MeshData read_zones(const std::string& file, const std::string& time) {
   } else {
     reader->UpdateTimeStep(times[find_time_step(time, times)]);
   }
-  check(file, messages);
-  std::vector<MeshData> parts;
-  vtkMultiBlockDataSet* blocks = reader->GetOutput();
-  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem()) {
-    auto* data = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject());
-    if (data != nullptr && data->GetNumberOfCells() > 0) parts.push_back(mesh_data(*data));
-  }
-  if (parts.empty()) throw base::ReadError(file, "holds no cells");
-  MeshData mesh = append_meshes(std::move(parts));
+  messages.refuse_damage(file);
+  MeshData mesh = mesh_data(*reader->GetOutput());
+  if (mesh.points.empty()) throw base::ReadError(file, "holds no cells");
   mend_cells(mesh);
-  if (times.size() > 1) {
-    const std::size_t step = find_time_step(time, times);
-    mesh.notes.push_back(
-        fmt::format("time step {} of {} (time {:g})", step, times.size(), times[step]));
-  }
+  if (!times.empty()) note_time_step(mesh.notes, find_time_step(time, times), times);
   for (const std::string& warning : messages.warnings()) mesh.notes.push_back("VTK: " + warning);
   return mesh;
 }

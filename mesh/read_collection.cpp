@@ -83,10 +83,7 @@ MeshData read_collection(const std::string& file, const std::string& time) {
     parts.push_back(read_vtk(entry.file));
   }
   MeshData mesh = append_meshes(std::move(parts));
-  if (times.size() > 1) {
-    mesh.notes.push_back(
-        fmt::format("time step {} of {} (time {:g})", step, times.size(), times[step]));
-  }
+  note_time_step(mesh.notes, step, times);
   return mesh;
 }
 

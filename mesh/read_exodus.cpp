@@ -167,10 +167,7 @@ MeshData ExodusFile::read(const std::string& time) {
     std::vector<double> times(steps);
     check(ex_get_all_times(id_, times.data()), "times");
     const std::size_t step = find_time_step(time, times);
-    if (steps > 1) {
-      mesh_.notes.push_back(
-          fmt::format("time step {} of {} (time {:g})", step, steps, times[step]));
-    }
+    note_time_step(mesh_.notes, step, times);
     read_point_fields(static_cast<int>(step) + 1);
     read_cell_fields(static_cast<int>(step) + 1);
     join_vectors();

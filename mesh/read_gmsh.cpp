@@ -173,10 +173,7 @@ void GmshReader::read_view(int tag, const std::string& time) {
   for (std::size_t i = 0; i < times.size(); ++i) get(i);
   const std::size_t step = find_time_step(time, times);
   get(step);
-  if (times.size() > 1) {
-    mesh_.notes.push_back(
-        fmt::format("'{}': time step {} of {} (time {:g})", name, step, times.size(), times[step]));
-  }
+  note_time_step(mesh_.notes, step, times, "'" + name + "': ");
   const bool at_points = kind == "NodeData";
   if ((!at_points && kind != "ElementData") || components < 1) {
     mesh_.notes.push_back(fmt::format("the view '{}' of kind '{}' is left out", name, kind));

@@ -107,10 +107,7 @@ MeshData MshReader::read(const std::string& time) {
     std::vector<double> times;
     for (const DataStep& step : steps) times.push_back(step.time);
     const std::size_t chosen = find_time_step(time, times);
-    if (steps.size() > 1) {
-      mesh_.notes.push_back(fmt::format("'{}': time step {} of {} (time {:g})", name.second, chosen,
-                                        steps.size(), times[chosen]));
-    }
+    note_time_step(mesh_.notes, chosen, times, "'" + name.second + "': ");
     read_data(name, steps[chosen]);
   }
   return std::move(mesh_);

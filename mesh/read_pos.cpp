@@ -171,9 +171,7 @@ void PosReader::choose_step(const std::string& time) {
   }
   for (std::size_t i = times_.size(); i < steps; ++i) times_.push_back(static_cast<double>(i));
   const std::size_t step = find_time_step(time, times_);
-  if (steps > 1) {
-    mesh_.notes.push_back(fmt::format("time step {} of {} (time {:g})", step, steps, times_[step]));
-  }
+  note_time_step(mesh_.notes, step, times_);
   std::vector<std::uint32_t> cell;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const std::size_t corners = kinds_[i]->order.size();

@@ -36,4 +36,11 @@ std::size_t find_time_step(const std::string& wanted, std::span<const double> ti
   return nearest;
 }
 
+void note_time_step(std::vector<std::string>& notes, std::size_t step,
+                    std::span<const double> times, const std::string& of) {
+  if (times.size() < 2) return;
+  notes.push_back(
+      fmt::format("{}time step {} of {} (time {:g})", of, step, times.size(), times[step]));
+}
+
 }  // namespace tetraglass::mesh

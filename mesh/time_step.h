@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tetraglass::mesh {
 
@@ -10,5 +11,10 @@ namespace tetraglass::mesh {
 /// time value, of which the nearest step is taken. `times` is not empty. Throws UsageError for
 /// anything else, and for an index beyond the last.
 [[nodiscard]] std::size_t find_time_step(const std::string& wanted, std::span<const double> times);
+
+/// Tells which of several steps was taken: "time step 2 of 5 (time 0.4)", after `of` where that
+/// names what has the steps. Of a single step there is nothing to tell.
+void note_time_step(std::vector<std::string>& notes, std::size_t step,
+                    std::span<const double> times, const std::string& of = "");
 
 }  // namespace tetraglass::mesh

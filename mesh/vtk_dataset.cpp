@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
@@ -18,10 +20,12 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "base/errors.h"
+#include "mesh/append.h"
 #include "mesh/memory.h"
 
 namespace tetraglass::mesh {
@@ -246,6 +250,16 @@ class Converter {
 
 MeshData mesh_data(vtkDataSet& data) {
   return Converter(data).convert();
+}
+
+MeshData mesh_data(vtkCompositeDataSet& blocks) {
+  std::vector<MeshData> parts;
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks.NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem()) {
+    auto* data = vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject());
+    if (data != nullptr && data->GetNumberOfCells() > 0) parts.push_back(mesh_data(*data));
+  }
+  return parts.empty() ? MeshData() : append_meshes(std::move(parts));
 }
 
 }  // namespace tetraglass::mesh

@@ -2,6 +2,7 @@
 
 #include "mesh/mesh_data.h"
 
+class vtkCompositeDataSet;
 class vtkDataSet;
 
 namespace tetraglass::mesh {
@@ -12,5 +13,8 @@ namespace tetraglass::mesh {
 /// become fields, ids last; what is left out is noted. Throws InputError where the data set
 /// contradicts itself or would not fit into memory.
 [[nodiscard]] MeshData mesh_data(vtkDataSet& data);
+
+/// The blocks with cells, joined (see `append_meshes`); nothing at all where there are none.
+[[nodiscard]] MeshData mesh_data(vtkCompositeDataSet& blocks);
 
 }  // namespace tetraglass::mesh

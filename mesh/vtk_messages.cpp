@@ -7,6 +7,8 @@
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
+#include "base/errors.h"
+
 namespace tetraglass::mesh {
 namespace {
 
@@ -84,6 +86,11 @@ const std::vector<std::string>& VtkMessages::errors() const {
 }
 const std::vector<std::string>& VtkMessages::warnings() const {
   return current->warnings;
+}
+
+void VtkMessages::refuse_damage(const std::string& file) const {
+  if (errors().empty()) return;
+  throw base::ReadError(file, "is damaged or not complete: " + errors().front());
 }
 
 }  // namespace tetraglass::mesh

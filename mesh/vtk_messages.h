@@ -18,6 +18,9 @@ class VtkMessages {
   /// So far, without VTK's source line and object address; each on one line.
   [[nodiscard]] const std::vector<std::string>& errors() const;
   [[nodiscard]] const std::vector<std::string>& warnings() const;
+
+  /// Throws ReadError with the first error, if there is one.
+  void refuse_damage(const std::string& file) const;
 };
 
 }  // namespace tetraglass::mesh

@@ -24,7 +24,7 @@ struct alignas(32) DrawnCell {
   /// numbers, and agree on it to the last bit.
   mesh::Cell vertices;
   PixelBounds bounds;     ///< in the view in work (see TileBins)
-  float distance = 0;     ///< in this view: the sum of those of its vertices
+  float distance = 0;     ///< in this view: the mean of those of its vertices
   bool mirrored = false;  ///< ascending order turns the cell inside out
 };
 

@@ -94,7 +94,9 @@ void TileBins::assign(DrawnCells& cells, const ViewPoints& points, int width, in
         DrawnCell& cell = cells.cells[i];
         cell.bounds = pixel_bounds(cell.vertices, points, width, height);
         cell.distance = 0;
-        for (const std::uint32_t v : cell.vertices) cell.distance += points.screen[v].distance;
+        for (const std::uint32_t v : cell.vertices) {
+          cell.distance += 0.25F * points.screen[v].distance;
+        }
         for_tiles(cell.bounds, size,
                   [&](std::size_t x, std::size_t y) { ++counts[y * tiles_x_ + x]; });
       }

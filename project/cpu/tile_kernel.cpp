@@ -60,14 +60,11 @@ void write_pixels(const Picture& picture, int tile_x, int tile_y, const F& pixel
   Image& image = *picture.image;
   const int width = std::min(picture.tile_size, image.width - tile_x);
   const int height = std::min(picture.tile_size, image.height - tile_y);
-  const int blocks_x = picture.tile_size / kBlockWidth;
   for (int y = 0; y < height; ++y) {
     float* out = image.pixel(tile_x, tile_y + y);
     for (int x = 0; x < width; ++x) {
-      const int block = (y / kBlockHeight) * blocks_x + x / kBlockWidth;
-      const int lane = (y % kBlockHeight) * kBlockWidth + x % kBlockWidth;
-      const std::array<float, 4> rgba =
-          pixel(static_cast<std::size_t>(block) * kLanes + static_cast<std::size_t>(lane));
+      const PixelPlace place = place_of(picture.tile_size, x, y);
+      const std::array<float, 4> rgba = pixel(place.block * kLanes + place.lane);
       std::copy(rgba.begin(), rgba.end(), out + 4 * x);
     }
   }

@@ -38,7 +38,7 @@ float distance_in_tile(const DrawnCell& cell, const ViewPoints& points, const Re
   float most = -least;
   for (std::size_t k = 0; k < 4; ++k) {
     p[k] = points.screen[cell.vertices[k]];
-    if (p[k].in_front == 0) return 0.25F * cell.distance;
+    if (p[k].in_front == 0) return cell.distance;
     mean_x += 0.25F * p[k].x;
     mean_y += 0.25F * p[k].y;
     mean += 0.25F * p[k].distance;
@@ -85,7 +85,7 @@ std::span<const std::uint32_t> TileOrder::front_to_back(std::span<const std::uin
     const DrawnCell& cell = drawn.cells[cells[i]];
     const bool large = cell.bounds.last_x - cell.bounds.first_x > tile.width / 2 ||
                        cell.bounds.last_y - cell.bounds.first_y > tile.height / 2;
-    const float distance = large ? distance_in_tile(cell, points, tile) : 0.25F * cell.distance;
+    const float distance = large ? distance_in_tile(cell, points, tile) : cell.distance;
     distances_[i] = distance;
     nearest = std::min(nearest, distance);
     farthest = std::max(farthest, distance);

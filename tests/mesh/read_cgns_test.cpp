@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "mesh/decompose.h"
 #include "mesh/import.h"
+#include "support/damaged.h"
 #include "support/meshes.h"
 #include "support/temporary_folder.h"
 
@@ -406,24 +407,12 @@ TEST(ReadCgns, WhatLiesIsRefusedInOneLine) {
   file.add_unstructured(kPoints, 1);
   file.add_section(CGNS_ENUMV(TETRA_4), 1, kTetrahedron);
   const std::string whole = tests::read_text(file.close());
-  const auto refused = [](const std::string& content) {
-    const std::string name = folder().file("damaged.cgns");
-    tests::write_text(name, content);
-    try {
-      static_cast<void>(import_mesh(name));
-      ADD_FAILURE() << "was read";
-    } catch (const base::Error& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    }
-  };
-  refused("nonsense");
-  for (std::size_t size = 1; size < whole.size(); size += whole.size() / 16) {
-    refused(whole.substr(0, size));
-  }
+  const std::string name = folder().file("damaged.cgns");
+  tests::expect_damage_refused(name, whole);
   CgnsFile beyond("beyond.cgns");
   beyond.add_unstructured(kPoints, 1);
   beyond.add_section(CGNS_ENUMV(TETRA_4), 1, {1, 2, 3, 15});
-  refused(tests::read_text(beyond.close()));
+  tests::expect_refused(name, tests::read_text(beyond.close()));
 }
 
 }  // namespace

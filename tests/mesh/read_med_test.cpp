@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "mesh/decompose.h"
 #include "mesh/import.h"
+#include "support/damaged.h"
 #include "support/meshes.h"
 #include "support/temporary_folder.h"
 
@@ -254,23 +255,11 @@ TEST(ReadMed, WhatLiesIsRefusedInOneLine) {
   MedWriter file("whole.med", kPoints);
   file.add_cells(MED_TETRA4, kTetrahedron);
   const std::string whole = tests::read_text(file.close());
-  const auto refused = [](const std::string& content) {
-    const std::string name = folder().file("damaged.med");
-    tests::write_text(name, content);
-    try {
-      static_cast<void>(import_mesh(name));
-      ADD_FAILURE() << "was read";
-    } catch (const base::Error& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    }
-  };
-  refused("nonsense");
-  for (std::size_t size = 1; size < whole.size(); size += whole.size() / 16) {
-    refused(whole.substr(0, size));
-  }
+  const std::string name = folder().file("damaged.med");
+  tests::expect_damage_refused(name, whole);
   MedWriter beyond("beyond.med", kPoints);
   beyond.add_cells(MED_TETRA4, {1, 2, 3, 15});
-  refused(tests::read_text(beyond.close()));
+  tests::expect_refused(name, tests::read_text(beyond.close()));
 }
 
 }  // namespace
