@@ -177,7 +177,10 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
 }
 
 void add_method_options(CLI::App* app, RenderArguments& a) {
-  app->add_option("--projector", a.projector, "auto | cpu | gl | reference (exact and slow)")
+  app->add_option("--projector", a.projector,
+                  "auto | cpu | gl | reference (exact and slow); of uniform and "
+                  "rectilinear grids, by their trilinear field instead of tetrahedra: "
+                  "grid-reference (exact and slow)")
       ->capture_default_str();
   app->add_option("--context", a.context,
                   "auto | osmesa | egl (a GPU without a display), for --projector gl")

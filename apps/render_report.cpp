@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/stopwatch.h"
+#include "project/reference/grid_reference.h"
 #include "project/reference/reference.h"
 
 namespace tetraglass::apps {
@@ -24,7 +25,9 @@ Verification verify(const project::Scene& scene, const project::Image& image, in
     const int x = below(image.width);
     pixels.emplace_back(x, below(image.height));
   }
-  const std::vector<Eigen::Array4d> expected = project::reference_pixels(scene, pixels);
+  const std::vector<Eigen::Array4d> expected = scene.grid
+                                                   ? project::grid_reference_pixels(scene, pixels)
+                                                   : project::reference_pixels(scene, pixels);
   Verification result;
   result.pixels = pixels.size();
   double squares = 0;

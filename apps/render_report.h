@@ -18,7 +18,8 @@ struct Verification {
   double rms_error = 0;
 };
 
-/// Draws `count` random pixels (the same ones each time) by the reference projector and compares.
+/// Draws `count` random pixels (the same ones each time) by the reference projector (that of grids
+/// where the scene has one) and compares.
 [[nodiscard]] Verification verify(const project::Scene& scene, const project::Image& image,
                                   int count);
 

@@ -137,6 +137,11 @@ std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& argument
   return planes;
 }
 
+/// Whether the trilinear field of a grid is drawn, not cells.
+bool draws_grid(const RenderArguments& arguments) {
+  return arguments.projector == "grid-reference";
+}
+
 void refuse_iso_options(const RenderArguments& arguments) {
   if (!arguments.isovalues.empty() || !arguments.iso_colors.empty() ||
       !arguments.iso_opacity.empty()) {
@@ -225,6 +230,13 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   } else {
     refuse_iso_options(arguments);
   }
+  if (draws_grid(arguments)) {
+    try {
+      scene.grid = mesh::rectilinear_grid(mesh);
+    } catch (const base::InputError& error) {
+      throw base::InputError(arguments.input + ": " + error.what());
+    }
+  }
   scene.clip = make_clip_planes(arguments);
   if (!arguments.depth_cue.empty()) {
     const auto [near, far] = parse_range(arguments.depth_cue, "--depth-cue");
@@ -241,11 +253,13 @@ project::Request make_request(const RenderArguments& arguments) {
   using project::Projector;
   using project::SortMethod;
   project::Request request;
-  request.projector = parse_choice<std::optional<Projector>>(arguments.projector, "--projector",
-                                                             {{"auto", std::nullopt},
-                                                              {"cpu", Projector::cpu},
-                                                              {"gl", Projector::gl},
-                                                              {"reference", Projector::reference}});
+  request.projector =
+      parse_choice<std::optional<Projector>>(arguments.projector, "--projector",
+                                             {{"auto", std::nullopt},
+                                              {"cpu", Projector::cpu},
+                                              {"gl", Projector::gl},
+                                              {"reference", Projector::reference},
+                                              {"grid-reference", Projector::grid_reference}});
   request.context = parse_choice<std::optional<ContextKind>>(
       arguments.context, "--context",
       {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}, {"egl", ContextKind::egl}});

@@ -51,6 +51,11 @@ void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
 
 void plan_order(const Scene& scene, const Request& request, Plan& plan) {
   const std::string mode = to_string(scene.mode);
+  if (plan.projector == Projector::grid_reference) {
+    if (request.sort)
+      throw base::UsageError("grids are drawn in order by themselves: leave out --sort");
+    return;
+  }
   if (plan.projector == Projector::reference) {
     if (request.sort && *request.sort != SortMethod::fragments) {
       throw base::UsageError(
@@ -166,6 +171,28 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
                              : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
 }
 
+/// That the trilinear field of a grid can be drawn.
+void check_grid(const Scene& scene, Projector projector) {
+  if (!scene.grid) {
+    throw base::UsageError("--projector " + to_string(projector) +
+                           " draws uniform and rectilinear grids; draw cells by --projector auto");
+  }
+  if (scene.field.location == mesh::Location::cell) {
+    throw base::UsageError("field '" + scene.field.name +
+                           "' is constant in each cell; --projector " + to_string(projector) +
+                           " draws point fields: use --projector auto");
+  }
+  if (scene.drawable.nan > 0) {
+    throw base::UsageError("field '" + scene.field.name +
+                           "' has values that are not finite; --projector " + to_string(projector) +
+                           " draws whole grids only: use --projector auto");
+  }
+  if (scene.shading == Shading::flat) {
+    throw base::UsageError("--projector " + to_string(projector) +
+                           " has no flat cells: use --shading smooth or none");
+  }
+}
+
 /// Whether something is asked for that only the gl projector has.
 bool needs_gl(const Scene& scene, const Request& request) {
   const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
@@ -195,6 +222,10 @@ void plan_projector(Plan& plan) {
       plan.reasons.emplace_back(
           "projector: reference, double precision, one ray at a time: slow, judges the others");
       return;
+    case Projector::grid_reference:
+      plan.reasons.emplace_back(
+          "projector: grid-reference, the trilinear field in double precision, one ray at a time");
+      return;
     case Projector::cpu:
       plan.reasons.emplace_back("projector: cpu, tiles and vectors, all threads, no GL");
       return;
@@ -208,6 +239,7 @@ Plan plan(const Scene& scene, const Request& request) {
   plan.projector =
       request.projector.value_or(needs_gl(scene, request) ? Projector::gl : Projector::cpu);
   plan_projector(plan);
+  if (plan.projector == Projector::grid_reference) check_grid(scene, plan.projector);
   if (plan.projector == Projector::gl) {
     plan.context = request.context.value_or(ContextKind::osmesa);
     plan.reasons.push_back("context: " + to_string(plan.context) +
@@ -248,6 +280,8 @@ std::string to_string(Projector projector) {
   switch (projector) {
     case Projector::reference:
       return "reference";
+    case Projector::grid_reference:
+      return "grid-reference";
     case Projector::gl:
       return "gl";
     case Projector::cpu:

@@ -10,7 +10,12 @@
 
 namespace tetraglass::project {
 
-enum class Projector { reference, gl, cpu };
+enum class Projector {
+  reference,
+  gl,
+  cpu,
+  grid_reference,  ///< the trilinear field of a grid, exactly
+};
 using SortMethod = sort::Method;
 enum class Integrator {
   exact,

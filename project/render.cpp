@@ -2,6 +2,7 @@
 
 #include "project/cpu/cpu_projector.h"
 #include "project/gl/gl_projector.h"
+#include "project/reference/grid_reference.h"
 #include "project/reference/reference.h"
 
 namespace tetraglass::project {
@@ -15,6 +16,8 @@ Image draw_samples(const Scene& scene, const Plan& plan, Stats& stats) {
       return render_cpu(scene, plan, stats);
     case Projector::reference:
       return render_reference(scene, stats);
+    case Projector::grid_reference:
+      return render_grid_reference(scene, stats);
   }
   return {};
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/rectilinear_grid.h"
 #include "mesh/tet_mesh.h"
 #include "preint/isosurfaces.h"
 #include "preint/transfer_function.h"
@@ -21,6 +22,8 @@ enum class Shading { none, flat, smooth };
 struct Scene {
   const mesh::TetMesh* mesh = nullptr;  ///< outlives the scene
   mesh::ScalarField field;
+  /// The mesh as a grid, where it is one and its trilinear field is to be drawn.
+  std::optional<mesh::RectilinearGrid> grid;
   mesh::Drawable drawable;  ///< the cells that can be drawn, for this field
   preint::TransferFunction transfer_function{{preint::ControlPoint{}}};
   Mode mode = Mode::full;

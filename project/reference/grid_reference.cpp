@@ -1,0 +1,282 @@
+#include "project/reference/grid_reference.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "base/progress.h"
+#include "base/stopwatch.h"
+#include "preint/gauss.h"
+#include "preint/segment_integral.h"
+#include "project/reference/ray_voxels.h"
+#include "project/shading.h"
+
+namespace tetraglass::project {
+namespace {
+
+using preint::Color;
+using Rgba = Eigen::Array4d;
+
+constexpr double kTolerance = 1e-12;
+constexpr int kMostHalvings = 40;
+
+/// The part [begin, end] of a piece where the transfer function is linear in the value.
+struct LinearPart {
+  const preint::TransferFunction* tf;
+  std::size_t interval;
+  const MonotonePiece* piece;
+  double length;  ///< of the whole piece
+
+  [[nodiscard]] preint::Medium at(double t) const {
+    return tf->in_interval(interval, piece->value(t));
+  }
+  /// The optical depth between two positions: extinction is a cubic, for which four nodes are
+  /// exact.
+  [[nodiscard]] double depth(double begin, double end) const {
+    double sum = 0;
+    for (const preint::GaussNode& node : preint::kGauss4) {
+      sum += node.weight * at(begin + node.x * (end - begin)).extinction;
+    }
+    return std::max(0.0, sum * (end - begin) * length);
+  }
+  /// What is emitted: of degree 6, exact with four nodes.
+  [[nodiscard]] Color emission(double begin, double end) const {
+    Color sum = Color::Zero();
+    for (const preint::GaussNode& node : preint::kGauss4) {
+      const preint::Medium medium = at(begin + node.x * (end - begin));
+      sum += node.weight * medium.extinction * medium.color;
+    }
+    return sum * (end - begin) * length;
+  }
+  [[nodiscard]] Color light_by_one_rule(double begin, double end) const {
+    Color sum = Color::Zero();
+    for (const preint::GaussNode& node : preint::kGauss10) {
+      const double t = begin + node.x * (end - begin);
+      const preint::Medium medium = at(t);
+      sum += node.weight * medium.extinction * std::exp(-depth(begin, t)) * medium.color;
+    }
+    return sum * (end - begin) * length;
+  }
+  /// What reaches `begin` of it.
+  [[nodiscard]] Color light(double begin, double end, int halvings = kMostHalvings) const {
+    const double middle = 0.5 * (begin + end);
+    const double first_depth = depth(begin, middle);
+    const Color whole = light_by_one_rule(begin, end);
+    const Color halves =
+        light_by_one_rule(begin, middle) + std::exp(-first_depth) * light_by_one_rule(middle, end);
+    if (halvings == 0 || (whole - halves).abs().maxCoeff() <= kTolerance) return halves;
+    return light(begin, middle, halvings - 1) +
+           std::exp(-first_depth) * light(middle, end, halvings - 1);
+  }
+};
+
+class Tracer {
+ public:
+  explicit Tracer(const Scene& scene) : scene_(scene), voxels_(scene) {}
+
+  [[nodiscard]] const Frame& frame() const { return voxels_.frame(); }
+
+  [[nodiscard]] Rgba trace(int x, int y, std::vector<MonotonePiece>& pieces) const {
+    voxels_.pieces(x, y, pieces);
+    if (pieces.empty()) return Rgba::Zero();
+    const Eigen::Vector2d plane = frame().image_plane(x, y);
+    const double stretch = frame().ray_direction(plane).norm();
+    switch (scene_.mode) {
+      case Mode::full:
+        return full(pieces, stretch);
+      case Mode::emission:
+        return emission(pieces, stretch);
+      case Mode::absorption:
+        return absorption(pieces, stretch);
+      case Mode::mip:
+        return mip(pieces);
+      case Mode::iso:
+        return iso(pieces, plane);
+      case Mode::thickness:
+        return thickness(pieces, stretch);
+    }
+    return Rgba::Zero();
+  }
+
+ private:
+  static Rgba rgba(const Color& color, double alpha) {
+    return {color.x(), color.y(), color.z(), alpha};
+  }
+
+  /// Calls visit(part, begin, end) for the parts of a piece between control points, front to back.
+  template <class Visit>
+  void visit_parts(const MonotonePiece& piece, double stretch, Visit visit) const {
+    const preint::TransferFunction& tf = scene_.transfer_function;
+    const double front = piece.value(0);
+    const double back = piece.value(1);
+    const bool rising = back >= front;
+    const std::size_t last = rising ? tf.interval_below(back) : tf.interval_above(back);
+    std::size_t interval = rising ? tf.interval_above(front) : tf.interval_below(front);
+    double begin = 0;
+    for (;;) {
+      const bool ends = rising ? interval >= last : interval <= last;
+      // The control point where the interval is left.
+      const double end =
+          ends ? 1 : piece.position(tf.points()[rising ? interval : interval - 1].value);
+      const LinearPart part{&tf, interval, &piece, (piece.exit - piece.entry) * stretch};
+      if (end > begin) visit(part, begin, end);
+      if (ends) return;
+      begin = std::max(begin, end);
+      interval += rising ? 1 : -1;
+    }
+  }
+
+  [[nodiscard]] Rgba full(const std::vector<MonotonePiece>& pieces, double stretch) const {
+    Color color = Color::Zero();
+    double depth = 0;
+    for (const MonotonePiece& piece : pieces) {
+      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+        color += std::exp(-depth) * part.light(begin, end);
+        depth += part.depth(begin, end);
+      });
+    }
+    return rgba(color, -std::expm1(-depth));
+  }
+
+  [[nodiscard]] Rgba emission(const std::vector<MonotonePiece>& pieces, double stretch) const {
+    Color color = Color::Zero();
+    for (const MonotonePiece& piece : pieces) {
+      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+        color += part.emission(begin, end);
+      });
+    }
+    return rgba(color, 0);
+  }
+
+  [[nodiscard]] Rgba absorption(const std::vector<MonotonePiece>& pieces, double stretch) const {
+    double depth = 0;
+    for (const MonotonePiece& piece : pieces) {
+      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+        depth += part.depth(begin, end);
+      });
+    }
+    return {0, 0, 0, -std::expm1(-depth)};
+  }
+
+  [[nodiscard]] Rgba mip(const std::vector<MonotonePiece>& pieces) const {
+    Color color = Color::Zero();
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const MonotonePiece& piece : pieces) {
+      const double front = piece.value(0);
+      const double back = piece.value(1);
+      largest = std::max({largest, front, back});
+      if (scene_.mip_of == MipOf::transfer) {
+        color = color.max(max_color(scene_.transfer_function, front, back));
+      }
+    }
+    return rgba(
+        scene_.mip_of == MipOf::transfer ? color : scene_.transfer_function.at(largest).color, 1);
+  }
+
+  [[nodiscard]] Rgba iso(const std::vector<MonotonePiece>& pieces,
+                         const Eigen::Vector2d& plane) const {
+    const Eigen::Vector3d ray = frame().ray_direction(plane);
+    const Eigen::Vector3d to_viewer = -(frame().axes().transpose() * ray).normalized();
+    Color color = Color::Zero();
+    double transmittance = 1;
+    for (const MonotonePiece& piece : pieces) {
+      for (const std::size_t i :
+           preint::crossed(scene_.isosurfaces, piece.value(0), piece.value(1))) {
+        const preint::Isosurface& surface = scene_.isosurfaces[i];
+        Color lit = surface.color;
+        if (scene_.shading != Shading::none) {
+          const double t = piece.position(surface.value);
+          const Eigen::Vector3d at =
+              voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
+          lit = shade_headlight(lit, grid_gradient(scene_, scene_.grid->index_at(at)), to_viewer);
+        }
+        color += transmittance * surface.opacity * lit;
+        transmittance *= 1 - surface.opacity;
+      }
+    }
+    return rgba(color, 1 - transmittance);
+  }
+
+  [[nodiscard]] static Rgba thickness(const std::vector<MonotonePiece>& pieces, double stretch) {
+    double length = 0;
+    for (const MonotonePiece& piece : pieces) length += (piece.exit - piece.entry) * stretch;
+    return rgba(Color::Constant(length), length > 0 ? 1 : 0);
+  }
+
+  const Scene& scene_;
+  RayVoxels voxels_;
+};
+
+}  // namespace
+
+Eigen::Vector3d grid_gradient(const Scene& scene, const Eigen::Vector3d& index) {
+  const mesh::RectilinearGrid& grid = *scene.grid;
+  const auto coordinate = [&](std::size_t axis, double at) {
+    const std::vector<double>& row = grid.coordinates[axis];
+    const std::size_t low = std::min(static_cast<std::size_t>(at), row.size() - 2);
+    return row[low] + (at - static_cast<double>(low)) * (row[low + 1] - row[low]);
+  };
+  Eigen::Vector3d slope;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    Eigen::Vector3d up = index;
+    Eigen::Vector3d down = index;
+    up[axis] = std::min(index[axis] + 1, static_cast<double>(grid.size(k) - 1));
+    down[axis] = std::max(index[axis] - 1, 0.0);
+    slope[axis] =
+        (interpolate(grid, scene.field.values, up) - interpolate(grid, scene.field.values, down)) /
+        (coordinate(k, up[axis]) - coordinate(k, down[axis]));
+  }
+  return grid.axes.inverse().transpose() * slope;
+}
+
+Image render_grid_reference(const Scene& scene, Stats& stats) {
+  const base::Stopwatch clock;
+  const Tracer tracer(scene);
+  Image image(tracer.frame().width(), tracer.frame().height());
+  std::atomic<std::uint64_t> fragments{0};
+  base::Progress progress("grid-reference", static_cast<std::uint64_t>(image.height));
+  tbb::enumerable_thread_specific<std::vector<MonotonePiece>> scratch;
+  tbb::parallel_for(0, image.height, [&](int y) {
+    std::vector<MonotonePiece>& pieces = scratch.local();
+    std::uint64_t row_fragments = 0;
+    for (int x = 0; x < image.width; ++x) {
+      Eigen::Map<Eigen::Array4f>(image.pixel(x, y)) = tracer.trace(x, y, pieces).cast<float>();
+      row_fragments += pieces.size();
+    }
+    fragments += row_fragments;
+    progress.advance();
+  });
+  stats.fragments += fragments;
+  stats.project_ms += clock.milliseconds();
+  stats.threads = tbb::this_task_arena::max_concurrency();
+  stats.sort_exact = true;
+  return image;
+}
+
+std::vector<Eigen::Array4d> grid_reference_pixels(const Scene& scene,
+                                                  std::span<const Eigen::Vector2i> pixels) {
+  const Tracer tracer(scene);
+  std::vector<Eigen::Array4d> result(pixels.size());
+  base::Progress progress("verify", pixels.size());
+  tbb::enumerable_thread_specific<std::vector<MonotonePiece>> scratch;
+  tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+    const int n = scene.samples;
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    for (int sample = 0; sample < n * n; ++sample) {
+      sum += tracer.trace(n * pixels[i].x() + sample % n, n * pixels[i].y() + sample / n,
+                          scratch.local());
+    }
+    result[i] = sum / (n * n);
+    progress.advance();
+  });
+  return result;
+}
+
+}  // namespace tetraglass::project
