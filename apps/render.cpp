@@ -180,10 +180,10 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--projector", a.projector,
                   "auto | cpu | gl | reference (exact and slow); of uniform and "
                   "rectilinear grids, by their trilinear field instead of tetrahedra: "
-                  "grid-reference (exact and slow)")
+                  "slices (textures) | grid-reference (exact and slow)")
       ->capture_default_str();
   app->add_option("--context", a.context,
-                  "auto | osmesa | egl (a GPU without a display), for --projector gl")
+                  "auto | osmesa | egl (a GPU without a display), for --projector gl and slices")
       ->capture_default_str();
   app->add_option("--sort", a.sort,
                   "auto | none | centroid | power | mpvo (gl) | fragments (pixel by pixel)")
@@ -208,6 +208,7 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
                   "exact (default) | affine: what faces12 interpolates in perspective views");
   app->add_option("--target-format", a.target_format,
                   "rgba32f (default) | rgba16f | rgba8: what --projector gl accumulates in");
+  add_slices_options(*app, a.slices);
   app->add_option("--threads", a.threads, "Most threads to use. Default: all");
   app->add_flag("--explain", a.explain,
                 "Print how the picture is drawn, and why, before drawing it");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/camera_options.h"
+#include "apps/slices_options.h"
 #include "mesh/import.h"
 #include "project/image_file.h"
 #include "project/plan.h"
@@ -48,6 +49,7 @@ struct RenderArguments : CameraArguments {
   std::string verify;
   std::string threads;
   bool explain = false;
+  SlicesArguments slices;
   mesh::ImportOptions import;
 };
 

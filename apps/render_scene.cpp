@@ -139,7 +139,7 @@ std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& argument
 
 /// Whether the trilinear field of a grid is drawn, not cells.
 bool draws_grid(const RenderArguments& arguments) {
-  return arguments.projector == "grid-reference";
+  return arguments.projector == "grid-reference" || arguments.projector == "slices";
 }
 
 void refuse_iso_options(const RenderArguments& arguments) {
@@ -259,6 +259,7 @@ project::Request make_request(const RenderArguments& arguments) {
                                               {"cpu", Projector::cpu},
                                               {"gl", Projector::gl},
                                               {"reference", Projector::reference},
+                                              {"slices", Projector::slices},
                                               {"grid-reference", Projector::grid_reference}});
   request.context = parse_choice<std::optional<ContextKind>>(
       arguments.context, "--context",
@@ -278,6 +279,7 @@ project::Request make_request(const RenderArguments& arguments) {
                                                                 {"psi", Integrator::psi},
                                                                 {"linear", Integrator::linear}});
   request.gl = make_gl_request(arguments);
+  request.slices = make_slices_request(arguments.slices);
   if (!arguments.opaque_at.empty()) {
     request.opaque_at = parse_number(arguments.opaque_at, "--opaque-at");
   }

@@ -24,6 +24,10 @@ bool needs_integral(const Scene& scene) {
   return !field_maximum && scene.mode != Mode::thickness;
 }
 
+bool draws_grid(Projector projector) {
+  return projector == Projector::grid_reference || projector == Projector::slices;
+}
+
 void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
   const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
   if (!blends) {
@@ -51,7 +55,7 @@ void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
 
 void plan_order(const Scene& scene, const Request& request, Plan& plan) {
   const std::string mode = to_string(scene.mode);
-  if (plan.projector == Projector::grid_reference) {
+  if (draws_grid(plan.projector)) {
     if (request.sort)
       throw base::UsageError("grids are drawn in order by themselves: leave out --sort");
     return;
@@ -122,6 +126,23 @@ void plan_psi(const Scene& scene, const Request& request, Plan& plan) {
       plan.table_n));
 }
 
+void plan_slab_table(const Scene& scene, const Request& request, Plan& plan) {
+  if (plan.integrator != Integrator::table2d || scene.mode != Mode::full ||
+      plan.slices.classify != Classify::integrated) {
+    throw base::UsageError(
+        "slices have --integrator table2d for --mode full and --classify integrated; else leave "
+        "out --integrator");
+  }
+  plan.table_n = request.table_n != 0 ? request.table_n : kTable2dSize;
+  if (plan.table_n < 2 || plan.table_n > kLargestTable2d || request.table_m != 0) {
+    throw base::UsageError(
+        fmt::format("slices have a table of N values, N from 2 to {}", kLargestTable2d));
+  }
+  plan.reasons.push_back(fmt::format(
+      "integrator: table of {0} x {0} values, of slabs of one length; that of others is corrected",
+      plan.table_n));
+}
+
 void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
   if (!needs_integral(scene)) {
     if (request.integrator && *request.integrator != Integrator::exact) {
@@ -137,6 +158,10 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
     if (request.table_n != 0)
       throw base::UsageError("--table needs --integrator table2d or table3d");
     plan.reasons.emplace_back("integrator: exact per segment, no table");
+    return;
+  }
+  if (plan.projector == Projector::slices) {
+    plan_slab_table(scene, request, plan);
     return;
   }
   if (plan.projector != Projector::gl) {
@@ -206,8 +231,9 @@ bool needs_gl(const Scene& scene, const Request& request) {
 void check_depth_cue(const Scene& scene, Plan& plan) {
   if (!scene.depth_cue) return;
   if (scene.mode != Mode::iso) throw base::UsageError("--depth-cue is for --mode iso");
-  if (plan.projector == Projector::cpu) {
-    throw base::UsageError("the cpu projector has no --depth-cue; use --projector gl");
+  if (plan.projector == Projector::cpu || draws_grid(plan.projector)) {
+    throw base::UsageError("the " + to_string(plan.projector) +
+                           " projector has no --depth-cue; use --projector gl");
   }
   plan.reasons.push_back(fmt::format("depth cue: surfaces fade to black from {:.6g} to {:.6g}",
                                      scene.depth_cue->near, scene.depth_cue->far));
@@ -226,9 +252,41 @@ void plan_projector(Plan& plan) {
       plan.reasons.emplace_back(
           "projector: grid-reference, the trilinear field in double precision, one ray at a time");
       return;
+    case Projector::slices:
+      plan.reasons.emplace_back("projector: slices, the trilinear field from textures, in float");
+      return;
     case Projector::cpu:
       plan.reasons.emplace_back("projector: cpu, tiles and vectors, all threads, no GL");
       return;
+  }
+}
+
+/// The context, and what only the projectors that draw with OpenGL know.
+void plan_opengl(const Scene& scene, const Request& request, Plan& plan) {
+  const bool gl = plan.projector == Projector::gl;
+  const bool slices = plan.projector == Projector::slices;
+  if (gl || slices) {
+    plan.context = request.context.value_or(ContextKind::osmesa);
+    plan.reasons.push_back("context: " + to_string(plan.context) +
+                           (plan.context == ContextKind::egl
+                                ? ", a GPU where there is one; needs no display"
+                                : ", needs no display and no GPU"));
+  } else if (request.context) {
+    throw base::UsageError("--context is for --projector gl and slices");
+  }
+  if (gl) {
+    plan.gl = plan_gl(scene, request.gl, plan.reasons);
+  } else if (is_any_set(request.gl)) {
+    throw base::UsageError(
+        "--layout, --edge-fix, --minimum, --perspective and --target-format are for --projector "
+        "gl");
+  }
+  if (slices) {
+    plan.slices = plan_slices(scene, request.slices, plan.reasons);
+  } else if (is_any_set(request.slices)) {
+    throw base::UsageError(
+        "--slices, --slice-distance, --stack, --filter, --texel-bits, --classify and "
+        "--skip-empty are for --projector slices");
   }
 }
 
@@ -239,21 +297,10 @@ Plan plan(const Scene& scene, const Request& request) {
   plan.projector =
       request.projector.value_or(needs_gl(scene, request) ? Projector::gl : Projector::cpu);
   plan_projector(plan);
-  if (plan.projector == Projector::grid_reference) check_grid(scene, plan.projector);
-  if (plan.projector == Projector::gl) {
-    plan.context = request.context.value_or(ContextKind::osmesa);
-    plan.reasons.push_back("context: " + to_string(plan.context) +
-                           (plan.context == ContextKind::egl
-                                ? ", a GPU where there is one; needs no display"
-                                : ", needs no display and no GPU"));
-    plan.gl = plan_gl(scene, request.gl, plan.reasons);
-  } else if (request.context || is_any_set(request.gl)) {
-    throw base::UsageError(
-        "--context, --layout, --edge-fix, --minimum, --perspective and --target-format are for "
-        "--projector gl");
-  }
+  if (draws_grid(plan.projector)) check_grid(scene, plan.projector);
+  plan_opengl(scene, request, plan);
   if (!scene.clip.empty()) {
-    plan.reasons.push_back(fmt::format("clip: cells are cut at {} planes", scene.clip.size()));
+    plan.reasons.push_back(fmt::format("clip: cut at {} planes", scene.clip.size()));
   }
   check_depth_cue(scene, plan);
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
@@ -272,7 +319,9 @@ Plan plan(const Scene& scene, const Request& request) {
   plan_integrator(scene, request, plan);
   plan.gradients = scene.shading == Shading::smooth;
   plan.reasons.push_back("shading: " + to_string(scene.shading) +
-                         (plan.gradients ? ", one gradient per vertex" : ", no gradients stored"));
+                         (!plan.gradients              ? ", no gradients stored"
+                          : draws_grid(plan.projector) ? ", by differences of the grid's values"
+                                                       : ", one gradient per vertex"));
   return plan;
 }
 
@@ -282,6 +331,8 @@ std::string to_string(Projector projector) {
       return "reference";
     case Projector::grid_reference:
       return "grid-reference";
+    case Projector::slices:
+      return "slices";
     case Projector::gl:
       return "gl";
     case Projector::cpu:

@@ -6,6 +6,7 @@
 
 #include "project/gl_plan.h"
 #include "project/scene.h"
+#include "project/slices_plan.h"
 #include "sort/cell_sorter.h"
 
 namespace tetraglass::project {
@@ -14,7 +15,8 @@ enum class Projector {
   reference,
   gl,
   cpu,
-  grid_reference,  ///< the trilinear field of a grid, exactly
+  slices,          ///< the trilinear field of a grid, by textures
+  grid_reference,  ///< ... exactly
 };
 using SortMethod = sort::Method;
 enum class Integrator {
@@ -36,6 +38,7 @@ struct Request {
   int table_n = 0;                  ///< scalar resolution of the table, 0: chosen
   int table_m = 0;                  ///< length resolution of the 3D table, 0: chosen
   GlRequest gl;                     ///< for the gl projector only
+  SlicesRequest slices;             ///< for the slices projector only
 };
 
 /// How a scene is drawn, and why.
@@ -50,6 +53,7 @@ struct Plan {
   int table_n = 0;                   ///< 0: no table
   int table_m = 0;                   ///< 0: no length axis
   GlPlan gl;                         ///< for the gl projector only
+  SlicesPlan slices;                 ///< for the slices projector only
   double opaque_at = 1;              ///< opacity at which a ray ends (cpu)
   bool gradients = false;            ///< per-vertex gradients are computed (smooth shading)
   std::vector<std::string> reasons;  ///< one line per decision, for people

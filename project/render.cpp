@@ -4,6 +4,7 @@
 #include "project/gl/gl_projector.h"
 #include "project/reference/grid_reference.h"
 #include "project/reference/reference.h"
+#include "project/slices/slices_projector.h"
 
 namespace tetraglass::project {
 namespace {
@@ -16,6 +17,8 @@ Image draw_samples(const Scene& scene, const Plan& plan, Stats& stats) {
       return render_cpu(scene, plan, stats);
     case Projector::reference:
       return render_reference(scene, stats);
+    case Projector::slices:
+      return render_slices(scene, plan, stats);
     case Projector::grid_reference:
       return render_grid_reference(scene, stats);
   }

@@ -10,6 +10,7 @@
 #include "preint/psi_table.h"
 #include "preint/table.h"
 #include "project/gl/functions.inl"
+#include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
 #include "project/shown_cells.h"
@@ -49,36 +50,6 @@ Table table_2d(const Context& context, const Scene& scene, const Plan& plan, dou
           : (scene.mode == Mode::mip ? mip_table(tf, low, high, plan.table_n)
                                      : emission_table(tf, low, high, plan.table_n));
   return {context, Texel::rgba32f, {table.n, table.n, 0}, table.rgba, !iso};
-}
-
-Texel target_texel(const Scene& scene, TargetFormat format) {
-  const bool scalar = has_scalar_target(scene);
-  switch (format) {
-    case TargetFormat::rgba32f:
-      return scalar ? Texel::r32f : Texel::rgba32f;
-    case TargetFormat::rgba16f:
-      return scalar ? Texel::r16f : Texel::rgba16f;
-    case TargetFormat::rgba8:
-      break;
-  }
-  return Texel::rgba8;
-}
-
-// Two texels a surface, ascending: what crossing.glsl reads. Of equal isovalues the first is the
-// nearer one on rays along which the field rises; they are one surface in all but name.
-std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
-                                            const Normalization& normalization) {
-  std::vector<preint::Isosurface> surfaces = scene.isosurfaces;
-  std::stable_sort(surfaces.begin(), surfaces.end(),
-                   [](const auto& a, const auto& b) { return a.value < b.value; });
-  std::vector<Eigen::Vector4f> texels;
-  for (const preint::Isosurface& surface : surfaces) {
-    const Eigen::Vector3f color = surface.color.cast<float>().matrix();
-    texels.emplace_back(normalization.value(surface.value), static_cast<float>(surface.opacity),
-                        0.0F, 0.0F);
-    texels.emplace_back(color.x(), color.y(), color.z(), 0.0F);
-  }
-  return texels;
 }
 
 }  // namespace

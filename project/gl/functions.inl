@@ -1,5 +1,5 @@
 // The OpenGL functions that project/gl calls, loaded from the context into one table. The one place that names
-// OpenGL's header; included by .cpp files of project/gl and its tests only.
+// OpenGL's header; included by .cpp files of project/gl, project/slices and their tests only.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES  // declares the functions for their types; none is linked

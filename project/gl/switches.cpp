@@ -3,6 +3,12 @@
 namespace tetraglass::project::gl {
 namespace {
 
+bool is_field_maximum(const Scene& scene) {
+  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
+}
+
+}  // namespace
+
 const char* mode_switch(const Scene& scene) {
   switch (scene.mode) {
     case Mode::full:
@@ -20,12 +26,6 @@ const char* mode_switch(const Scene& scene) {
   }
   return "";
 }
-
-bool is_field_maximum(const Scene& scene) {
-  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
-}
-
-}  // namespace
 
 bool draws_opaque_surfaces(const Scene& scene) {
   return scene.mode == Mode::iso && is_commutative(scene);

@@ -9,6 +9,9 @@
 /// What a scene calls for; everything else is left out of shaders, buffers and target.
 namespace tetraglass::project::gl {
 
+/// The `#define` of the mode.
+[[nodiscard]] const char* mode_switch(const Scene& scene);
+
 /// Mode iso with surfaces that hide what is behind them: the depth buffer stands for an order.
 [[nodiscard]] bool draws_opaque_surfaces(const Scene& scene);
 

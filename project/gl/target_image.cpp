@@ -37,6 +37,19 @@ void resolve(const Scene& scene, const Normalization& normalization, float value
 
 }  // namespace
 
+Texel target_texel(const Scene& scene, TargetFormat format) {
+  const bool scalar = has_scalar_target(scene);
+  switch (format) {
+    case TargetFormat::rgba32f:
+      return scalar ? Texel::r32f : Texel::rgba32f;
+    case TargetFormat::rgba16f:
+      return scalar ? Texel::r16f : Texel::rgba16f;
+    case TargetFormat::rgba8:
+      break;
+  }
+  return Texel::rgba8;
+}
+
 float empty_pixel(const Scene& scene) {
   return scene.mode == Mode::mip && scene.mip_of == MipOf::field ? kNoValue : 0;
 }

@@ -3,10 +3,14 @@
 #include "project/gl/normalization.h"
 #include "project/gl/objects.h"
 #include "project/gl/view_uniforms.h"
+#include "project/gl_plan.h"
 #include "project/image.h"
 #include "project/scene.h"
 
 namespace tetraglass::project::gl {
+
+/// What the target is made of: one number a pixel where the mode has no more.
+[[nodiscard]] Texel target_texel(const Scene& scene, TargetFormat format);
 
 /// What a pixel of the target holds that no cell has touched.
 [[nodiscard]] float empty_pixel(const Scene& scene);

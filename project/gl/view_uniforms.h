@@ -26,6 +26,9 @@ class ViewUniforms {
   /// Whether anything of the mesh can lie in front of the eye.
   [[nodiscard]] bool sees_mesh() const { return parallel_ || farthest_depth_ > 0; }
 
+  /// The depth, in units of the normalization, that depths are counted from.
+  [[nodiscard]] double focus() const { return focus_; }
+
   /// Sets the uniforms of the program that depend on view and tile.
   void set(const Program& program, const Tile& tile, int subpixel_bits) const;
 

@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "project/compare.h"
-#include "project/cpu/cpu_projector.h"
-#include "project/gl/gl_projector.h"
 #include "project/plan.h"
-#include "project/reference/reference.h"
+#include "project/render.h"
 #include "tests/support/chord.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -29,15 +27,7 @@ Image draw(const Scene& scene, Projector projector, Layout layout = Layout::inde
   if (projector == Projector::gl) request.gl.layout = layout;
   const Plan how = plan(scene, request);
   Stats stats;
-  switch (projector) {
-    case Projector::gl:
-      return render_gl(scene, how, stats);
-    case Projector::cpu:
-      return render_cpu(scene, how, stats);
-    case Projector::reference:
-      break;
-  }
-  return render_reference(scene, stats);
+  return render(scene, how, stats);
 }
 
 class ClipTest : public testing::Test {

@@ -1,0 +1,81 @@
+// The segment of a ray in one slab of the grid: the field there, and what the mode makes of it.
+
+#if defined(SCALAR_TARGET)
+layout(location = 0) out float result;
+#else
+layout(location = 0) out vec4 result;
+#endif
+
+#include "grid_ray.glsl"
+#include "grid_sample.glsl"
+
+#ifdef BLOCKS
+flat in vec3 block_low;   // in units of points
+flat in vec3 block_high;
+#endif
+
+#ifdef PRE_CLASSIFIED
+#include "slab_opacity.glsl"
+#endif
+#ifdef NEEDS_MEDIUM
+#include "medium.glsl"
+#endif
+#ifdef TABLE_2D
+#include "slab_table.glsl"
+#endif
+#ifdef MODE_ISO
+#include "slab_surfaces.glsl"
+#endif
+
+vec4 light_of(float front, float back, float size) {
+#ifdef TABLE_2D
+  return slab_light(front, back, size);
+#elif defined(MODE_FULL) && defined(NEEDS_MEDIUM)
+  return radiance(front, back, size);
+#else
+  return vec4(0);
+#endif
+}
+
+void main() {
+  vec2 position = gl_FragCoord.xy + tile_corner;
+  Ray ray = ray_of(position);
+  float near;
+  float far;
+  if (!segment_of(position, ray, near, far)) discard;
+  float middle = 0.5 * (near + far);
+#ifdef BLOCKS
+  // Its middle lies in exactly one of the blocks.
+  precise vec3 owner = index_at(ray.start + middle * ray.slope);
+  if (any(lessThan(owner, block_low)) || any(greaterThanEqual(owner, block_high))) discard;
+#endif
+  float size = (far - near) * ray.stretch;
+#ifdef MODE_THICKNESS
+  result = size;
+#else
+#ifdef INTEGRATED
+  vec3 enter = index_at(ray.start + near * ray.slope);
+  vec3 leave = index_at(ray.start + far * ray.slope);
+  float front = value_at(enter);
+  float back = value_at(leave);
+#elif !defined(PRE_CLASSIFIED)
+  float front = value_at(index_at(ray.start + middle * ray.slope));
+  float back = front;
+#endif
+#if defined(PRE_CLASSIFIED)
+  result = slab_of(texel_at(index_at(ray.start + middle * ray.slope)), size);
+#elif defined(MODE_MIP_FIELD)
+  result = max(front, back);
+#elif defined(MODE_ISO)
+  if (!surfaces_met(front, back, enter, leave, ray.to_viewer, result)) discard;
+#elif defined(MODE_EMISSION)
+  result = vec4(emission(front, back, size), 0);
+#elif defined(MODE_ABSORPTION)
+  result = optical_depth(front, back, size);
+#elif defined(MODE_MIP_TRANSFER)
+  result = vec4(largest_color(front, back), 1);
+#else
+  result = light_of(front, back, size);
+#endif
+#endif
+}

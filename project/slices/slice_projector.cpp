@@ -1,0 +1,368 @@
+#include "project/slices/slice_projector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "base/stopwatch.h"
+#include "preint/table.h"
+#include "project/gl/functions.inl"
+#include "project/gl/mesh_buffers.h"
+#include "project/gl/surface_texels.h"
+#include "project/gl/switches.h"
+#include "project/gl/target_image.h"
+
+namespace tetraglass::project::slices {
+namespace {
+
+// Of the samplers of the slabs' shaders that those of the cells do not have.
+constexpr int kGridUnit = gl::Units::kCells;
+constexpr int kPointsUnit = gl::Units::kVertices;
+
+// Blocks farther off than this would have to be looked at for every one.
+constexpr int kFarthestReach = 2 * BlockRanges::kSide;
+
+bool is_uneven(const mesh::RectilinearGrid& grid) {
+  return !(grid.even[0] && grid.even[1] && grid.even[2]);
+}
+
+std::vector<float> places_of_points(const mesh::RectilinearGrid& grid) {
+  std::vector<float> places;
+  for (const std::vector<double>& row : grid.coordinates) {
+    for (const double at : row) places.push_back(static_cast<float>(2 * at / row.back() - 1));
+  }
+  return places;
+}
+
+/// Whether anything of the values [least, most] can be seen.
+bool shows(const Scene& scene, const SlicesPlan& plan, double least, double most) {
+  // Rounded values, and those between them, may leave the range by a step.
+  if (plan.texels != TexelBits::floats) {
+    const double step = (scene.field.max - scene.field.min) / 255;
+    least -= step;
+    most += step;
+  }
+  switch (scene.mode) {
+    case Mode::full:
+    case Mode::emission:
+    case Mode::absorption:
+      return scene.transfer_function.max_extinction(least, most) > 0;
+    case Mode::iso:
+      return std::ranges::any_of(scene.isosurfaces, [&](const preint::Isosurface& surface) {
+        return surface.value >= least && surface.value <= most;
+      });
+    case Mode::mip:
+    case Mode::thickness:
+      break;
+  }
+  return true;
+}
+
+/// The slabs' outlines as triangles, the farthest first.
+struct Triangles {
+  std::vector<std::array<float, 2>> position;
+  std::vector<std::array<float, 2>> slab;
+  std::vector<std::array<float, 3>> low;
+  std::vector<std::array<float, 3>> high;
+};
+
+std::array<float, 3> owned_from(const Block& block) {
+  std::array<float, 3> result{};
+  for (int k = 0; k < 3; ++k) {
+    result[static_cast<std::size_t>(k)] =
+        block.low[k] == 0 ? -1.0F : static_cast<float>(block.low[k]);
+  }
+  return result;
+}
+
+/// A place at the very end of the grid belongs to the last block.
+std::array<float, 3> owned_to(const Block& block, const Block& all) {
+  std::array<float, 3> result{};
+  for (int k = 0; k < 3; ++k) {
+    result[static_cast<std::size_t>(k)] =
+        static_cast<float>(block.high[k] + (block.high[k] == all.high[k] ? 1 : 0));
+  }
+  return result;
+}
+
+bool is_whole(const std::vector<Block>& blocks, const Block& all) {
+  return blocks.size() == 1 && blocks[0].low == all.low && blocks[0].high == all.high;
+}
+
+}  // namespace
+
+SliceProjector::SliceProjector(const gl::Context& context, const Scene& scene, const Plan& plan,
+                               Stats& stats, int largest_tile)
+    : context_(context),
+      scene_(scene),
+      plan_(plan),
+      largest_tile_(std::min(largest_tile, context.limits().tile)),
+      normalization_(scene),
+      ranges_(*scene.grid, scene.field.values),
+      counter_(context) {
+  const base::Stopwatch clock;
+  if (plan.slices.classify != Classify::pre && gl::reads_medium(scene, plan)) {
+    medium_.emplace(context, scene.transfer_function, normalization_);
+  }
+  if (scene.mode == Mode::iso) {
+    surfaces_.emplace(context, gl::Texel::rgba32f);
+    surfaces_->upload(gl::surface_texels(scene, normalization_), "isosurfaces");
+  }
+  if (is_uneven(*scene.grid)) {
+    points_.emplace(context, gl::Texel::r32f);
+    points_->upload(places_of_points(*scene.grid), "points of the grid's axes");
+  }
+  stats.tables_ms += clock.milliseconds();
+}
+
+std::size_t SliceProjector::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& [axis, texture] : textures_) sum += texture.bytes();
+  return sum;
+}
+
+std::optional<int> SliceProjector::layers(const GridView& view) const {
+  if (plan_.slices.stack != Stack::textures) return std::nullopt;
+  return view.stack_axis();
+}
+
+double SliceProjector::nominal_length(std::optional<int> layers) const {
+  if (plan_.slices.distance > 0) return plan_.slices.distance / normalization_.radius;
+  const mesh::RectilinearGrid& grid = *scene_.grid;
+  const auto axis = static_cast<std::size_t>(layers.value_or(0));
+  const double step = grid.coordinates[axis].back() / static_cast<double>(grid.size(axis) - 1);
+  const Eigen::Matrix3d inverse = grid.axes.inverse();
+  return step / inverse.row(static_cast<Eigen::Index>(axis)).norm() / normalization_.radius;
+}
+
+const GridTexture& SliceProjector::texture(std::optional<int> layers) {
+  const int key = layers.value_or(-1);
+  const auto found = textures_.find(key);
+  if (found != textures_.end()) return found->second;
+  return textures_
+      .try_emplace(key, context_, scene_, plan_.slices, whole_grid(*scene_.grid), layers,
+                   nominal_length(layers) * normalization_.radius)
+      .first->second;
+}
+
+void SliceProjector::make_table(double length, Stats& stats) {
+  if (plan_.integrator != Integrator::table2d || (table_ && table_length_ == length)) return;
+  const base::Stopwatch clock;
+  const preint::Table2D table = preint::slab_table(
+      scene_.transfer_function, normalization_.field_value(-1), normalization_.field_value(1),
+      length * normalization_.radius, plan_.table_n);
+  table_.emplace(context_, gl::Texel::rgba32f, std::array<int, 3>{table.n, table.n, 0}, table.rgba,
+                 true);
+  table_length_ = length;
+  stats.tables_ms += clock.milliseconds();
+}
+
+const gl::Program& SliceProjector::program(bool parallel, std::optional<int> layers, bool blocks) {
+  std::vector<std::string> names = {gl::mode_switch(scene_)};
+  const SlicesPlan& slices = plan_.slices;
+  if (parallel) names.emplace_back("PARALLEL");
+  if (blocks) names.emplace_back("BLOCKS");
+  if (layers) {
+    constexpr std::array<const char*, 3> kPlanes = {"PLANE yz", "PLANE xz", "PLANE xy"};
+    constexpr std::array<const char*, 3> kLayers = {"LAYER x", "LAYER y", "LAYER z"};
+    names.emplace_back(kPlanes[static_cast<std::size_t>(*layers)]);
+    names.emplace_back(kLayers[static_cast<std::size_t>(*layers)]);
+    names.push_back("SLAB_AXIS " + std::to_string(*layers));
+  } else if (slices.stack == Stack::shells && !parallel) {
+    names.emplace_back("SHELLS");
+  }
+  if (slices.filter == Filter::nearest) names.emplace_back("NEAREST");
+  if (slices.classify == Classify::pre) names.emplace_back("PRE_CLASSIFIED");
+  if (slices.classify == Classify::integrated) names.emplace_back("INTEGRATED");
+  if (slices.classify == Classify::post) names.emplace_back("LINEAR");
+  if (plan_.integrator == Integrator::table2d) names.emplace_back("TABLE_2D");
+  if (medium_) names.emplace_back("NEEDS_MEDIUM");
+  if (gl::has_scalar_target(scene_)) names.emplace_back("SCALAR_TARGET");
+  if (points_) names.emplace_back("UNEVEN");
+  if (scene_.shading == Shading::smooth) names.emplace_back("SHADING_SMOOTH");
+  if (!scene_.clip.empty()) names.push_back("CLIP_PLANES " + std::to_string(scene_.clip.size()));
+  std::string purpose;
+  for (const std::string& name : names) purpose += name + ' ';
+  if (const auto found = programs_.find(purpose); found != programs_.end()) return found->second;
+  const gl::Program& program =
+      programs_
+          .try_emplace(purpose, context_, gl::shader_source("slab.vert.glsl", names),
+                       gl::shader_source("slab.frag.glsl", names))
+          .first->second;
+  program.set("medium_pieces", gl::Units::kMediumPieces);
+  program.set("medium_index", gl::Units::kMediumIndex);
+  program.set("table", gl::Units::kTable);
+  program.set("surfaces", gl::Units::kSurfaces);
+  program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
+  program.set("grid_points", kPointsUnit);
+  const Eigen::Vector3i last = whole_grid(*scene_.grid).high;
+  program.set("last_point", Eigen::Vector3f(last.cast<float>()));
+  return program;
+}
+
+std::vector<Block> SliceProjector::shown(const GridView& view) const {
+  const Block all = whole_grid(*scene_.grid);
+  if (!plan_.slices.skip_empty) return {all};
+  // Values are looked up at the middle of a slab, or at its ends.
+  Eigen::Vector3i reach = Eigen::Vector3i::Zero();
+  if (plan_.slices.classify == Classify::integrated) {
+    if (plan_.slices.stack == Stack::textures) return {all};
+    const double half = 0.5 * nominal_length({}) * view.most_stretch();
+    for (int k = 0; k < 3; ++k) {
+      const std::vector<double>& row = scene_.grid->coordinates[static_cast<std::size_t>(k)];
+      double closest = row.back();
+      for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+        closest = std::min(closest, row[i + 1] - row[i]);
+      }
+      const double points = std::ceil(half * view.steepest()[k] * 0.5 * row.back() / closest);
+      if (!(points <= kFarthestReach)) return {all};
+      reach[k] = static_cast<int>(points);
+    }
+  }
+  return ranges_.shown(all, reach, [&](double least, double most) {
+    return shows(scene_, plan_.slices, least, most);
+  });
+}
+
+void SliceProjector::set_blending() const {
+  const gl::Functions& gl = context_.gl();
+  gl.Disable(GL_DEPTH_TEST);
+  gl.Disable(GL_CULL_FACE);
+  gl.Enable(GL_BLEND);
+  const bool over = scene_.mode == Mode::full || scene_.mode == Mode::iso;
+  gl.BlendEquation(scene_.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
+  gl.BlendFunc(GL_ONE, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+}
+
+namespace {
+
+struct PlacedBlock {
+  Block block;
+  GridBox box;
+  std::array<Eigen::Vector3d, 8> corners;
+};
+
+/// The triangles of one slab.
+void add_slab(const GridView& view, const Slab& slab, std::optional<int> layers,
+              const std::vector<PlacedBlock>& blocks, const Block& all, const gl::Tile& tile,
+              double margin, Triangles& triangles) {
+  for (const PlacedBlock& placed : blocks) {
+    std::vector<Eigen::Vector2d> polygon;
+    if (layers) {
+      GridBox box = placed.box;
+      box.low[*layers] = std::max(box.low[*layers], slab.low);
+      box.high[*layers] = std::min(box.high[*layers], slab.high);
+      if (!(box.low[*layers] <= box.high[*layers])) continue;
+      polygon = outline(view, view.corners(box), slab.depths, tile, margin);
+    } else {
+      polygon = outline(view, placed.corners, slab.depths, tile, margin);
+    }
+    const auto add = [&](const Eigen::Vector2d& at) {
+      triangles.position.push_back({static_cast<float>(2 * at.x() / tile.width - 1),
+                                    static_cast<float>(2 * at.y() / tile.height - 1)});
+      triangles.slab.push_back(slab.bounds);
+      triangles.low.push_back(owned_from(placed.block));
+      triangles.high.push_back(owned_to(placed.block, all));
+    };
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+      add(polygon[0]);
+      add(polygon[i - 1]);
+      add(polygon[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void SliceProjector::draw_tile(const GridView& view, const gl::Program& program,
+                               const std::vector<Slab>& slabs, const std::vector<Block>& blocks,
+                               const gl::Tile& tile) const {
+  const std::optional<int> axis = layers(view);
+  const Block all = whole_grid(*scene_.grid);
+  std::vector<PlacedBlock> placed;
+  for (const Block& block : blocks) {
+    const GridBox box = box_of(block, *scene_.grid);
+    placed.push_back({block, box, view.corners(box)});
+  }
+  // What the rasterizer rounds: to half a subpixel each way; before that to floats.
+  const double margin = std::ldexp(1, -context_.limits().subpixel_bits) +
+                        std::ldexp(std::max(tile.width, tile.height), -19);
+  std::vector<Triangles> parts(slabs.size());
+  tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t i) {
+    add_slab(view, slabs[i], axis, placed, all, tile, margin, parts[i]);
+  });
+  // In runs of slabs that do not take too much memory at once.
+  constexpr std::size_t kRun = std::size_t{1} << 20;
+  Triangles run;
+  const auto flush = [&] {
+    if (run.position.empty()) return;
+    gl::VertexArrays arrays(context_);
+    arrays.add(0, run.position);
+    arrays.add(1, run.slab);
+    arrays.add(2, run.low);
+    arrays.add(3, run.high);
+    program.use();
+    arrays.draw(run.position.size());
+    run = {};
+  };
+  for (Triangles& part : parts) {
+    run.position.insert(run.position.end(), part.position.begin(), part.position.end());
+    run.slab.insert(run.slab.end(), part.slab.begin(), part.slab.end());
+    run.low.insert(run.low.end(), part.low.begin(), part.low.end());
+    run.high.insert(run.high.end(), part.high.begin(), part.high.end());
+    if (run.position.size() >= kRun) flush();
+  }
+  flush();
+}
+
+Image SliceProjector::draw(const Frame& frame, Stats& stats) {
+  const base::Stopwatch clock;
+  const double tables_before = stats.tables_ms;
+  stats.context = context_.description();
+  Image image(frame.width(), frame.height());
+  const gl::ViewUniforms uniforms(frame, normalization_, scene_);
+  const GridView view(scene_, normalization_, frame, uniforms.focus());
+  const std::vector<Block> blocks = shown(view);
+  const std::optional<int> axis = layers(view);
+  const double length = nominal_length(axis);
+  const std::vector<Slab> slabs =
+      make_slabs(view, *scene_.grid, plan_.slices.stack, plan_.slices.distance > 0 ? length : 0);
+  if (uniforms.sees_mesh() && !blocks.empty()) {
+    make_table(length, stats);
+    const gl::Program& shaders =
+        program(frame.parallel(), axis, !is_whole(blocks, whole_grid(*scene_.grid)));
+    view.set(shaders);
+    shaders.set("nominal_inverse", static_cast<float>(1 / length));
+    texture(axis).bind(shaders, kGridUnit);
+    if (medium_) medium_->bind();
+    if (surfaces_) surfaces_->bind(gl::Units::kSurfaces);
+    if (points_) points_->bind(kPointsUnit);
+    if (table_) table_->bind(gl::Units::kTable);
+    const int width = std::min(frame.width(), largest_tile_);
+    const int height = std::min(frame.height(), largest_tile_);
+    const gl::Target target(context_, gl::target_texel(scene_, TargetFormat::rgba32f), false, width,
+                            height);
+    set_blending();
+    for (int y = 0; y < frame.height(); y += height) {
+      for (int x = 0; x < frame.width(); x += width) {
+        const gl::Tile tile{x, y, std::min(width, frame.width() - x),
+                            std::min(height, frame.height() - y)};
+        target.begin(gl::empty_pixel(scene_), tile.width, tile.height);
+        uniforms.set(shaders, tile, context_.limits().subpixel_bits);
+        counter_.begin();
+        draw_tile(view, shaders, slabs, blocks, tile);
+        counter_.end();
+        stats.fragments += counter_.count();
+        gl::read_tile(target, scene_, normalization_, tile, image);
+      }
+    }
+    context_.gl().Finish();
+    context_.check("drawing slices");
+  }
+  stats.project_ms += clock.milliseconds() - (stats.tables_ms - tables_before);
+  return image;
+}
+
+}  // namespace tetraglass::project::slices
