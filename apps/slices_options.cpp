@@ -22,6 +22,11 @@ void add_slices_options(CLI::App& app, SlicesArguments& a) {
   app.add_option(
       "--skip-empty", a.skip_empty,
       "on (default) | off: whether blocks of the grid that show nothing are passed over");
+  app.add_option("--compress", a.compress,
+                 "on | off (default): whether 2D textures are compressed (S3TC), for --stack 2d");
+  app.add_option("--brick", a.brick,
+                 "Most bytes of a texture: larger grids are drawn brick by brick, for --stack 3d "
+                 "and shells. Default: one texture, where OpenGL can hold it");
 }
 
 project::SlicesRequest make_slices_request(const SlicesArguments& a) {
@@ -56,6 +61,12 @@ project::SlicesRequest make_slices_request(const SlicesArguments& a) {
   if (!a.skip_empty.empty()) {
     request.skip_empty =
         parse_choice<bool>(a.skip_empty, "--skip-empty", {{"on", true}, {"off", false}});
+  }
+  if (!a.compress.empty()) {
+    request.compress = parse_choice<bool>(a.compress, "--compress", {{"on", true}, {"off", false}});
+  }
+  if (!a.brick.empty()) {
+    request.brick_bytes = static_cast<std::size_t>(parse_count(a.brick, "--brick", 1));
   }
   return request;
 }

@@ -19,6 +19,8 @@ struct SlicesArguments {
   std::string texel_bits;
   std::string classify;
   std::string skip_empty;
+  std::string compress;
+  std::string brick;
 };
 
 /// Adds them to a subcommand; `arguments` outlive it.

@@ -285,8 +285,8 @@ void plan_opengl(const Scene& scene, const Request& request, Plan& plan) {
     plan.slices = plan_slices(scene, request.slices, plan.reasons);
   } else if (is_any_set(request.slices)) {
     throw base::UsageError(
-        "--slices, --slice-distance, --stack, --filter, --texel-bits, --classify and "
-        "--skip-empty are for --projector slices");
+        "--slices, --slice-distance, --stack, --filter, --texel-bits, --classify, "
+        "--skip-empty, --compress and --brick are for --projector slices");
   }
 }
 

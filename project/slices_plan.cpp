@@ -73,6 +73,22 @@ void check_classification(const Scene& scene, const SlicesPlan& plan) {
   }
 }
 
+void plan_memory(const SlicesRequest& request, SlicesPlan& plan) {
+  plan.compress = request.compress.value_or(false);
+  plan.brick_bytes = request.brick_bytes.value_or(0);
+  if (plan.compress && plan.stack != Stack::textures) {
+    throw base::UsageError("--compress on needs --stack 2d: OpenGL compresses 2D textures only");
+  }
+  if (plan.compress && request.texels && plan.texels != TexelBits::bits8) {
+    throw base::UsageError("--compress on has texels of 8 bits: leave out --texel-bits");
+  }
+  if (plan.compress) plan.texels = TexelBits::bits8;
+  if (plan.brick_bytes > 0 && plan.stack == Stack::textures) {
+    throw base::UsageError(
+        "--brick is for --stack 3d and shells: 2D textures are small ones already");
+  }
+}
+
 }  // namespace
 
 SlicesPlan plan_slices(const Scene& scene, const SlicesRequest& request,
@@ -85,6 +101,7 @@ SlicesPlan plan_slices(const Scene& scene, const SlicesRequest& request,
   plan.skip_empty = request.skip_empty.value_or(plan.skip_empty);
   plan.distance = plan_distance(scene, request, plan);
   check_classification(scene, plan);
+  plan_memory(request, plan);
   const std::string where = plan.stack == Stack::textures ? "2D textures, planes of the grid"
                             : plan.stack == Stack::shells && !scene.camera.parallel
                                 ? "a 3D texture, spheres about the eye"
@@ -94,7 +111,13 @@ SlicesPlan plan_slices(const Scene& scene, const SlicesRequest& request,
                                       where, plan.distance, diagonal(*scene.grid) / plan.distance)
                         : fmt::format("slices: {}, one for each", where));
   reasons.push_back(
-      fmt::format("texels: {}, filter {}", to_string(plan.texels), to_string(plan.filter)));
+      fmt::format("texels: {}, filter {}", to_string(plan.texels), to_string(plan.filter)) +
+      (plan.compress ? ", compressed: not as they were" : ""));
+  if (plan.brick_bytes > 0) {
+    reasons.push_back(fmt::format(
+        "bricks: textures of at most {} bytes, loaded for every frame, one after the other",
+        plan.brick_bytes));
+  }
   reasons.push_back(plan.classify == Classify::post
                         ? "classify: post, of the value in the middle of each slab"
                     : plan.classify == Classify::pre
@@ -106,7 +129,7 @@ SlicesPlan plan_slices(const Scene& scene, const SlicesRequest& request,
 
 bool is_any_set(const SlicesRequest& request) {
   return request.stack || request.filter || request.texels || request.classify || request.slices ||
-         request.distance || request.skip_empty;
+         request.distance || request.skip_empty || request.compress || request.brick_bytes;
 }
 
 std::string to_string(Stack stack) {

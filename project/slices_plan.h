@@ -40,6 +40,8 @@ struct SlicesRequest {
   std::optional<int> slices;       ///< slabs across the grid's diagonal
   std::optional<double> distance;  ///< between slices, in world units
   std::optional<bool> skip_empty;
+  std::optional<bool> compress;
+  std::optional<std::size_t> brick_bytes;
 };
 
 /// The part of a plan that only the slices projector knows.
@@ -50,6 +52,9 @@ struct SlicesPlan {
   Classify classify = Classify::integrated;
   double distance = 0;     ///< between slices, in world units; 0: the grid's planes (`textures`)
   bool skip_empty = true;  ///< blocks of the grid that show nothing are not drawn
+  bool compress =
+      false;  ///< textures in blocks of 4 x 4 texels (Stack::textures; meissner2002 5.1)
+  std::size_t brick_bytes = 0;  ///< the largest texture, loaded one after the other; 0: one for all
 };
 
 /// Slices need not be more across the grid's diagonal: finer ones are below a float's rounding.

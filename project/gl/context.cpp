@@ -123,6 +123,15 @@ void Context::read_limits() {
   limits_.subpixel_bits = integer(gl, GL_SUBPIXEL_BITS);
 }
 
+bool Context::has_extension(const std::string& name) const {
+  const GLint count = integer(gl(), GL_NUM_EXTENSIONS);
+  for (GLint i = 0; i < count; ++i) {
+    const auto* extension = gl().GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i));
+    if (name == reinterpret_cast<const char*>(extension)) return true;
+  }
+  return false;
+}
+
 void Context::listen_to_errors() {
   if (!wants_debug_output()) return;
   functions_->Enable(GL_DEBUG_OUTPUT);

@@ -42,6 +42,9 @@ class Context {
 
   [[nodiscard]] const Limits& limits() const { return limits_; }
 
+  /// Whether it has an extension ("GL_EXT_texture_compression_s3tc").
+  [[nodiscard]] bool has_extension(const std::string& name) const;
+
   /// "osmesa: llvmpipe (LLVM 15.0.6, 256 bits)"
   [[nodiscard]] const std::string& description() const { return description_; }
 

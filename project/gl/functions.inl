@@ -53,6 +53,7 @@
   X(GetShaderInfoLog)           \
   X(GetShaderiv)                \
   X(GetString)                  \
+  X(GetStringi)                 \
   X(GetTextureSubImage)         \
   X(GetUniformLocation)         \
   X(LinkProgram)                \

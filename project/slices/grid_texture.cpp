@@ -123,6 +123,12 @@ struct Format {
 Format format_of(const SlicesPlan& plan) {
   const bool colors = plan.classify == Classify::pre;
   const GLenum components = colors ? GL_RGBA : GL_RED;
+  // A single number is what S3TC makes of an opacity: RGTC stores that part alone.
+  if (plan.compress) {
+    return {
+        static_cast<GLenum>(colors ? GL_COMPRESSED_RGBA_S3TC_DXT5_EXT : GL_COMPRESSED_RED_RGTC1),
+        components, GL_UNSIGNED_BYTE};
+  }
   switch (plan.texels) {
     case TexelBits::bits8:
       return {static_cast<GLenum>(colors ? GL_RGBA8 : GL_R8), components, GL_UNSIGNED_BYTE};
@@ -133,6 +139,23 @@ Format format_of(const SlicesPlan& plan) {
       break;
   }
   return {static_cast<GLenum>(colors ? GL_RGBA32F : GL_R32F), components, GL_FLOAT};
+}
+
+void check_compression(const gl::Context& context, const SlicesPlan& plan) {
+  if (plan.compress && plan.classify == Classify::pre &&
+      !context.has_extension("GL_EXT_texture_compression_s3tc")) {
+    throw base::UnavailableError("this OpenGL has no S3TC: leave out --compress");
+  }
+}
+
+/// What a texture takes: compressed ones 4 bits a number, in blocks of 4 x 4.
+std::size_t texture_bytes(const SlicesPlan& plan, const Vector3i& stored) {
+  const auto product = [](int a, int b, int c) {
+    return static_cast<std::size_t>(a) * static_cast<std::size_t>(b) * static_cast<std::size_t>(c);
+  };
+  if (!plan.compress) return bytes_per_point(plan) * product(stored.x(), stored.y(), stored.z());
+  const std::size_t block = plan.classify == Classify::pre ? 16 : 8;
+  return block * product((stored.x() + 3) / 4, (stored.y() + 3) / 4, stored.z());
 }
 
 void check_size(const gl::Context& context, const Vector3i& size, bool layers) {
@@ -168,6 +191,7 @@ GridTexture::GridTexture(const gl::Context& context, const Scene& scene, const S
     : texture_(make_texture(context, layers ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_3D)) {
   const Vector3i size = block.high - block.low + Vector3i::Ones();
   check_size(context, size, layers.has_value());
+  check_compression(context, plan);
   const Functions& gl = context.gl();
   const GLuint name = texture_.get();
   const Format format = format_of(plan);
@@ -182,8 +206,7 @@ GridTexture::GridTexture(const gl::Context& context, const Scene& scene, const S
     gl.TextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
   }
   context.check("handing the grid to the shaders");
-  bytes_ = bytes_per_point(plan) * static_cast<std::size_t>(size.x()) *
-           static_cast<std::size_t>(size.y()) * static_cast<std::size_t>(size.z());
+  bytes_ = texture_bytes(plan, stored);
   scale_ = size.cast<float>().cwiseInverse();
   offset_ = (0.5F * Eigen::Vector3f::Ones() - block.low.cast<float>()).cwiseProduct(scale_);
   if (layers) {

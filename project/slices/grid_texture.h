@@ -36,7 +36,7 @@ class GridTexture {
   std::size_t bytes_ = 0;
 };
 
-/// The bytes of the texture for each point.
+/// The bytes of a texture that is not compressed for each point.
 [[nodiscard]] std::size_t bytes_per_point(const SlicesPlan& plan);
 
 }  // namespace tetraglass::project::slices

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <oneapi/tbb/parallel_for.h>
+#include <Eigen/LU>
 
 #include "base/stopwatch.h"
 #include "preint/table.h"
@@ -13,6 +13,7 @@
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/slices/slab_triangles.h"
 
 namespace tetraglass::project::slices {
 namespace {
@@ -60,35 +61,8 @@ bool shows(const Scene& scene, const SlicesPlan& plan, double least, double most
   return true;
 }
 
-/// The slabs' outlines as triangles, the farthest first.
-struct Triangles {
-  std::vector<std::array<float, 2>> position;
-  std::vector<std::array<float, 2>> slab;
-  std::vector<std::array<float, 3>> low;
-  std::vector<std::array<float, 3>> high;
-};
-
-std::array<float, 3> owned_from(const Block& block) {
-  std::array<float, 3> result{};
-  for (int k = 0; k < 3; ++k) {
-    result[static_cast<std::size_t>(k)] =
-        block.low[k] == 0 ? -1.0F : static_cast<float>(block.low[k]);
-  }
-  return result;
-}
-
-/// A place at the very end of the grid belongs to the last block.
-std::array<float, 3> owned_to(const Block& block, const Block& all) {
-  std::array<float, 3> result{};
-  for (int k = 0; k < 3; ++k) {
-    result[static_cast<std::size_t>(k)] =
-        static_cast<float>(block.high[k] + (block.high[k] == all.high[k] ? 1 : 0));
-  }
-  return result;
-}
-
-bool is_whole(const std::vector<Block>& blocks, const Block& all) {
-  return blocks.size() == 1 && blocks[0].low == all.low && blocks[0].high == all.high;
+bool same(const Block& a, const Block& b) {
+  return a.low == b.low && a.high == b.high;
 }
 
 }  // namespace
@@ -202,26 +176,46 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   return program;
 }
 
-std::vector<Block> SliceProjector::shown(const GridView& view) const {
-  const Block all = whole_grid(*scene_.grid);
-  if (!plan_.slices.skip_empty) return {all};
-  // Values are looked up at the middle of a slab, or at its ends.
-  Eigen::Vector3i reach = Eigen::Vector3i::Zero();
-  if (plan_.slices.classify == Classify::integrated) {
-    if (plan_.slices.stack == Stack::textures) return {all};
-    const double half = 0.5 * nominal_length({}) * view.most_stretch();
-    for (int k = 0; k < 3; ++k) {
-      const std::vector<double>& row = scene_.grid->coordinates[static_cast<std::size_t>(k)];
-      double closest = row.back();
-      for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-        closest = std::min(closest, row[i + 1] - row[i]);
-      }
-      const double points = std::ceil(half * view.steepest()[k] * 0.5 * row.back() / closest);
-      if (!(points <= kFarthestReach)) return {all};
-      reach[k] = static_cast<int>(points);
+std::optional<Eigen::Vector3i> SliceProjector::reach(const GridView& view) const {
+  if (plan_.slices.classify != Classify::integrated) return Eigen::Vector3i::Zero();
+  if (plan_.slices.stack == Stack::textures) return std::nullopt;
+  const double half = 0.5 * nominal_length({}) * view.most_stretch();
+  Eigen::Vector3i result;
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<double>& row = scene_.grid->coordinates[static_cast<std::size_t>(k)];
+    double closest = row.back();
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      closest = std::min(closest, row[i + 1] - row[i]);
     }
+    const double points = std::ceil(half * view.steepest()[k] * 0.5 * row.back() / closest);
+    result[k] = static_cast<int>(std::min(points, static_cast<double>(row.size())));
   }
-  return ranges_.shown(all, reach, [&](double least, double most) {
+  return result;
+}
+
+std::vector<Brick> SliceProjector::bricks(const GridView& view,
+                                          const std::optional<Eigen::Vector3i>& reach) const {
+  const Block all = whole_grid(*scene_.grid);
+  const Eigen::Vector3i size = all.high + Eigen::Vector3i::Ones();
+  const bool fits =
+      plan_.slices.stack == Stack::textures || size.maxCoeff() <= context_.limits().table_3d;
+  if (plan_.slices.brick_bytes == 0 && fits) return {{all, all}};
+  const std::size_t most = plan_.slices.brick_bytes > 0
+                               ? plan_.slices.brick_bytes / bytes_per_point(plan_.slices)
+                               : std::numeric_limits<std::size_t>::max();
+  // The gradient of a surface is that between the points beside it.
+  const Eigen::Vector3i border =
+      reach.value_or(Eigen::Vector3i::Zero()) +
+      Eigen::Vector3i::Constant(scene_.shading == Shading::smooth ? 1 : 0);
+  std::vector<Brick> result = make_bricks(*scene_.grid, border, most, context_.limits().table_3d);
+  order_bricks(result, *scene_.grid, view);
+  return result;
+}
+
+std::vector<Block> SliceProjector::shown(const Block& voxels,
+                                         const std::optional<Eigen::Vector3i>& reach) const {
+  if (!plan_.slices.skip_empty || !reach || reach->maxCoeff() > kFarthestReach) return {voxels};
+  return ranges_.shown(voxels, *reach, [&](double least, double most) {
     return shows(scene_, plan_.slices, least, most);
   });
 }
@@ -236,85 +230,29 @@ void SliceProjector::set_blending() const {
   gl.BlendFunc(GL_ONE, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
 }
 
-namespace {
-
-struct PlacedBlock {
-  Block block;
-  GridBox box;
-  std::array<Eigen::Vector3d, 8> corners;
-};
-
-/// The triangles of one slab.
-void add_slab(const GridView& view, const Slab& slab, std::optional<int> layers,
-              const std::vector<PlacedBlock>& blocks, const Block& all, const gl::Tile& tile,
-              double margin, Triangles& triangles) {
-  for (const PlacedBlock& placed : blocks) {
-    std::vector<Eigen::Vector2d> polygon;
-    if (layers) {
-      GridBox box = placed.box;
-      box.low[*layers] = std::max(box.low[*layers], slab.low);
-      box.high[*layers] = std::min(box.high[*layers], slab.high);
-      if (!(box.low[*layers] <= box.high[*layers])) continue;
-      polygon = outline(view, view.corners(box), slab.depths, tile, margin);
-    } else {
-      polygon = outline(view, placed.corners, slab.depths, tile, margin);
-    }
-    const auto add = [&](const Eigen::Vector2d& at) {
-      triangles.position.push_back({static_cast<float>(2 * at.x() / tile.width - 1),
-                                    static_cast<float>(2 * at.y() / tile.height - 1)});
-      triangles.slab.push_back(slab.bounds);
-      triangles.low.push_back(owned_from(placed.block));
-      triangles.high.push_back(owned_to(placed.block, all));
-    };
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-      add(polygon[0]);
-      add(polygon[i - 1]);
-      add(polygon[i]);
-    }
-  }
-}
-
-}  // namespace
-
-void SliceProjector::draw_tile(const GridView& view, const gl::Program& program,
-                               const std::vector<Slab>& slabs, const std::vector<Block>& blocks,
-                               const gl::Tile& tile) const {
+void SliceProjector::draw_tile(const GridView& view, const std::vector<Slab>& slabs,
+                               const std::vector<DrawnBrick>& bricks,
+                               const gl::ViewUniforms& uniforms, const gl::Tile& tile) {
   const std::optional<int> axis = layers(view);
   const Block all = whole_grid(*scene_.grid);
-  std::vector<PlacedBlock> placed;
-  for (const Block& block : blocks) {
-    const GridBox box = box_of(block, *scene_.grid);
-    placed.push_back({block, box, view.corners(box)});
+  for (const DrawnBrick& brick : bricks) {
+    const gl::Program& shaders =
+        program(view.parallel(), axis, brick.blocks.size() > 1 || !same(brick.blocks[0], all));
+    uniforms.set(shaders, tile, context_.limits().subpixel_bits);
+    view.set(shaders);
+    const double length = nominal_length(axis);
+    shaders.set("nominal_inverse", static_cast<float>(1 / length));
+    if (same(brick.points, all)) {
+      texture(axis).bind(shaders, kGridUnit);
+      draw_slabs(context_, shaders, view, *scene_.grid, slabs, brick.blocks, axis, tile);
+    } else {
+      const GridTexture part(context_, scene_, plan_.slices, brick.points, axis,
+                             length * normalization_.radius);
+      part.bind(shaders, kGridUnit);
+      draw_slabs(context_, shaders, view, *scene_.grid, slabs, brick.blocks, axis, tile);
+      context_.gl().Finish();  // before the texture is deleted: one at a time
+    }
   }
-  // What the rasterizer rounds: to half a subpixel each way; before that to floats.
-  const double margin = std::ldexp(1, -context_.limits().subpixel_bits) +
-                        std::ldexp(std::max(tile.width, tile.height), -19);
-  std::vector<Triangles> parts(slabs.size());
-  tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t i) {
-    add_slab(view, slabs[i], axis, placed, all, tile, margin, parts[i]);
-  });
-  // In runs of slabs that do not take too much memory at once.
-  constexpr std::size_t kRun = std::size_t{1} << 20;
-  Triangles run;
-  const auto flush = [&] {
-    if (run.position.empty()) return;
-    gl::VertexArrays arrays(context_);
-    arrays.add(0, run.position);
-    arrays.add(1, run.slab);
-    arrays.add(2, run.low);
-    arrays.add(3, run.high);
-    program.use();
-    arrays.draw(run.position.size());
-    run = {};
-  };
-  for (Triangles& part : parts) {
-    run.position.insert(run.position.end(), part.position.begin(), part.position.end());
-    run.slab.insert(run.slab.end(), part.slab.begin(), part.slab.end());
-    run.low.insert(run.low.end(), part.low.begin(), part.low.end());
-    run.high.insert(run.high.end(), part.high.begin(), part.high.end());
-    if (run.position.size() >= kRun) flush();
-  }
-  flush();
 }
 
 Image SliceProjector::draw(const Frame& frame, Stats& stats) {
@@ -324,18 +262,17 @@ Image SliceProjector::draw(const Frame& frame, Stats& stats) {
   Image image(frame.width(), frame.height());
   const gl::ViewUniforms uniforms(frame, normalization_, scene_);
   const GridView view(scene_, normalization_, frame, uniforms.focus());
-  const std::vector<Block> blocks = shown(view);
-  const std::optional<int> axis = layers(view);
-  const double length = nominal_length(axis);
-  const std::vector<Slab> slabs =
-      make_slabs(view, *scene_.grid, plan_.slices.stack, plan_.slices.distance > 0 ? length : 0);
-  if (uniforms.sees_mesh() && !blocks.empty()) {
+  const std::optional<Eigen::Vector3i> reach = this->reach(view);
+  std::vector<DrawnBrick> drawn;
+  for (const Brick& brick : bricks(view, reach)) {
+    std::vector<Block> blocks = shown(brick.voxels, reach);
+    if (!blocks.empty()) drawn.push_back({brick.points, std::move(blocks)});
+  }
+  if (uniforms.sees_mesh() && !drawn.empty()) {
+    const double length = nominal_length(layers(view));
+    const std::vector<Slab> slabs =
+        make_slabs(view, *scene_.grid, plan_.slices.stack, plan_.slices.distance > 0 ? length : 0);
     make_table(length, stats);
-    const gl::Program& shaders =
-        program(frame.parallel(), axis, !is_whole(blocks, whole_grid(*scene_.grid)));
-    view.set(shaders);
-    shaders.set("nominal_inverse", static_cast<float>(1 / length));
-    texture(axis).bind(shaders, kGridUnit);
     if (medium_) medium_->bind();
     if (surfaces_) surfaces_->bind(gl::Units::kSurfaces);
     if (points_) points_->bind(kPointsUnit);
@@ -350,9 +287,8 @@ Image SliceProjector::draw(const Frame& frame, Stats& stats) {
         const gl::Tile tile{x, y, std::min(width, frame.width() - x),
                             std::min(height, frame.height() - y)};
         target.begin(gl::empty_pixel(scene_), tile.width, tile.height);
-        uniforms.set(shaders, tile, context_.limits().subpixel_bits);
         counter_.begin();
-        draw_tile(view, shaders, slabs, blocks, tile);
+        draw_tile(view, slabs, drawn, uniforms, tile);
         counter_.end();
         stats.fragments += counter_.count();
         gl::read_tile(target, scene_, normalization_, tile, image);

@@ -11,6 +11,7 @@
 #include "project/gl/view_uniforms.h"
 #include "project/image.h"
 #include "project/plan.h"
+#include "project/slices/bricks.h"
 #include "project/slices/grid_texture.h"
 #include "project/slices/shown_blocks.h"
 #include "project/slices/slabs.h"
@@ -45,9 +46,21 @@ class SliceProjector {
   [[nodiscard]] const GridTexture& texture(std::optional<int> layers);
   [[nodiscard]] const gl::Program& program(bool parallel, std::optional<int> layers, bool blocks);
   void make_table(double length, Stats& stats);
-  [[nodiscard]] std::vector<Block> shown(const GridView& view) const;
-  void draw_tile(const GridView& view, const gl::Program& program, const std::vector<Slab>& slabs,
-                 const std::vector<Block>& blocks, const gl::Tile& tile) const;
+  /// How far from the middle of a slab, in points along each axis, its values are looked up; none:
+  /// anywhere.
+  [[nodiscard]] std::optional<Eigen::Vector3i> reach(const GridView& view) const;
+  [[nodiscard]] std::vector<Brick> bricks(const GridView& view,
+                                          const std::optional<Eigen::Vector3i>& reach) const;
+  [[nodiscard]] std::vector<Block> shown(const Block& voxels,
+                                         const std::optional<Eigen::Vector3i>& reach) const;
+  /// The blocks that show something, and the points of their texture.
+  struct DrawnBrick {
+    Block points;
+    std::vector<Block> blocks;
+  };
+  void draw_tile(const GridView& view, const std::vector<Slab>& slabs,
+                 const std::vector<DrawnBrick>& bricks, const gl::ViewUniforms& uniforms,
+                 const gl::Tile& tile);
   void set_blending() const;
 
   const gl::Context& context_;
