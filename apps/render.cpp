@@ -156,7 +156,14 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
       ->expected(1);
   app->add_option("--iso-opacity", a.iso_opacity, "0 to 1, of all isosurfaces. Default: 1");
   app->add_option("--shading", a.shading,
-                  "none | flat | smooth, for mode iso, by a headlight. Default there: smooth");
+                  "none | flat | smooth (default for mode iso) and, for mode full, whose medium is "
+                  "then lit: single | weighted | interpolated | surface (see docs/lighting.md)");
+  app->add_option("--lights", a.lights,
+                  "FILE.json of directional, point and rectangle lights. Default: a headlight");
+  app->add_option("--gradient", a.gradient,
+                  "vertex (default: interpolated) | cell: the normals of --shading");
+  app->add_option("--modulate", a.modulate,
+                  "G: opacity times min(1, |gradient| / G), shows boundaries");
   app->add_option("--tf", a.transfer_function, transfer_function_help())->capture_default_str();
   app->add_option(
       "--opacity", a.opacity,

@@ -44,6 +44,9 @@ struct RenderArguments : CameraArguments {
   std::string perspective;
   std::string target_format;
   std::string shading;
+  std::string gradient;
+  std::string lights;
+  std::string modulate;
   std::string background;
   std::string stats;
   std::string verify;

@@ -147,15 +147,48 @@ void refuse_iso_options(const RenderArguments& arguments) {
       !arguments.iso_opacity.empty()) {
     throw base::UsageError("--isovalue, --iso-color and --iso-opacity are for --mode iso");
   }
-  if (!arguments.shading.empty() && arguments.shading != "none") {
-    throw base::UsageError("--shading " + arguments.shading +
-                           " is for --mode iso; other modes are not shaded");
-  }
 }
 
-/// The layouts of weiler2002 have one gradient per cell.
-std::string default_shading(const RenderArguments& arguments) {
+/// What isosurfaces have: the layouts of weiler2002 have one gradient per cell.
+std::string default_shading(const RenderArguments& arguments, Mode mode) {
+  if (mode != Mode::iso) return "none";
   return arguments.layout.rfind("faces12", 0) == 0 ? "flat" : "smooth";
+}
+
+/// Of a scene whose mode is known.
+void set_light(const RenderArguments& arguments, project::Scene& scene) {
+  using project::GradientOf;
+  using project::Shading;
+  scene.shading = parse_choice<Shading>(
+      arguments.shading.empty() ? default_shading(arguments, scene.mode) : arguments.shading,
+      "--shading",
+      {{"none", Shading::none},
+       {"flat", Shading::flat},
+       {"smooth", Shading::smooth},
+       {"single", Shading::single},
+       {"weighted", Shading::weighted},
+       {"interpolated", Shading::interpolated},
+       {"surface", Shading::surface}});
+  if (!arguments.gradient.empty()) {
+    scene.gradient =
+        parse_choice<GradientOf>(arguments.gradient, "--gradient",
+                                 {{"vertex", GradientOf::vertex}, {"cell", GradientOf::cell}});
+    if (scene.shading == Shading::none) {
+      throw base::UsageError("--gradient is that of --shading, which is none here");
+    }
+    if (scene.gradient == GradientOf::cell && scene.shading == Shading::smooth)
+      scene.shading = Shading::flat;
+    if (scene.gradient == GradientOf::vertex && scene.shading == Shading::flat)
+      throw base::UsageError("--shading flat is by the gradient of cells: use --shading smooth");
+  }
+  if (!arguments.lights.empty()) scene.lights = project::read_lights(arguments.lights);
+  if (!arguments.modulate.empty()) {
+    scene.modulation = parse_number(arguments.modulate, "--modulate");
+    if (!(*scene.modulation > 0)) {
+      throw base::UsageError(
+          "--modulate needs a gradient above 0, in the field's units per length");
+    }
+  }
 }
 
 project::GlRequest make_gl_request(const RenderArguments& arguments) {
@@ -222,11 +255,6 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   scene.transfer_function = make_transfer_function(arguments, scene.field, box.diagonal().norm());
   if (scene.mode == Mode::iso) {
     scene.isosurfaces = make_isosurfaces(arguments, scene.field, scene.transfer_function);
-    scene.shading = parse_choice<project::Shading>(
-        arguments.shading.empty() ? default_shading(arguments) : arguments.shading, "--shading",
-        {{"none", project::Shading::none},
-         {"flat", project::Shading::flat},
-         {"smooth", project::Shading::smooth}});
   } else {
     refuse_iso_options(arguments);
   }
@@ -237,6 +265,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
       throw base::InputError(arguments.input + ": " + error.what());
     }
   }
+  set_light(arguments, scene);
   scene.clip = make_clip_planes(arguments);
   if (!arguments.depth_cue.empty()) {
     const auto [near, far] = parse_range(arguments.depth_cue, "--depth-cue");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "project/light/plan_light.h"
 
 namespace tetraglass::project {
 namespace {
@@ -22,10 +23,6 @@ constexpr double kOpaqueAt = 0.99998;
 bool needs_integral(const Scene& scene) {
   const bool field_maximum = scene.mode == Mode::mip && scene.mip_of == MipOf::field;
   return !field_maximum && scene.mode != Mode::thickness;
-}
-
-bool draws_grid(Projector projector) {
-  return projector == Projector::grid_reference || projector == Projector::slices;
 }
 
 void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
@@ -317,11 +314,7 @@ Plan plan(const Scene& scene, const Request& request) {
   }
   plan_order(scene, request, plan);
   plan_integrator(scene, request, plan);
-  plan.gradients = scene.shading == Shading::smooth;
-  plan.reasons.push_back("shading: " + to_string(scene.shading) +
-                         (!plan.gradients              ? ", no gradients stored"
-                          : draws_grid(plan.projector) ? ", by differences of the grid's values"
-                                                       : ", one gradient per vertex"));
+  plan_light(scene, plan);
   return plan;
 }
 

@@ -55,7 +55,7 @@ struct Plan {
   GlPlan gl;                         ///< for the gl projector only
   SlicesPlan slices;                 ///< for the slices projector only
   double opaque_at = 1;              ///< opacity at which a ray ends (cpu)
-  bool gradients = false;            ///< per-vertex gradients are computed (smooth shading)
+  bool gradients = false;            ///< of the field are computed, to light it
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };
 
@@ -64,6 +64,11 @@ struct Plan {
 /// UsageError where the request contradicts the scene (unsorted `full`, a projector that lacks what
 /// is asked for).
 [[nodiscard]] Plan plan(const Scene& scene, const Request& request);
+
+/// Whether the projector draws the trilinear field of a grid, not cells.
+[[nodiscard]] constexpr bool draws_grid(Projector projector) {
+  return projector == Projector::grid_reference || projector == Projector::slices;
+}
 
 [[nodiscard]] std::string to_string(Projector projector);
 using sort::to_string;

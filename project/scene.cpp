@@ -39,6 +39,14 @@ std::string to_string(Shading shading) {
       return "flat";
     case Shading::smooth:
       return "smooth";
+    case Shading::single:
+      return "single";
+    case Shading::weighted:
+      return "weighted";
+    case Shading::interpolated:
+      return "interpolated";
+    case Shading::surface:
+      return "surface";
   }
   return "";
 }

@@ -11,12 +11,27 @@
 #include "project/camera.h"
 #include "project/clip.h"
 #include "project/depth_cue.h"
+#include "project/light/lights.h"
 
 namespace tetraglass::project {
 
 enum class Mode { full, emission, absorption, mip, iso, thickness };
 enum class MipOf { field, transfer };
-enum class Shading { none, flat, smooth };
+/// How light falls on what is drawn. Isosurfaces have flat and smooth. Mode full has all of them: a
+/// medium whose color is lit at every point, by the field's gradient there, and ways to do with
+/// less.
+enum class Shading {
+  none,
+  flat,          ///< by the gradient of each cell
+  smooth,        ///< by gradients at the vertices, linear in between and normalized there
+  single,        ///< one normal a segment, the mean of those at its ends
+  weighted,      ///< one normal a segment, where most of its light comes from (meissner2002)
+  interpolated,  ///< the light at the ends of a segment, linear in between (lum2004)
+  surface        ///< one normal a segment, that at the value of largest extinction
+};
+
+/// Where the gradients of the field are taken.
+enum class GradientOf { vertex, cell };
 
 /// What is wanted: which mesh and field, seen how, from where. Says nothing of the way to draw it.
 struct Scene {
@@ -30,6 +45,11 @@ struct Scene {
   MipOf mip_of = MipOf::field;
   std::vector<preint::Isosurface> isosurfaces;  ///< mode iso
   Shading shading = Shading::none;
+  GradientOf gradient = GradientOf::vertex;  ///< of shadings other than flat and smooth
+  std::optional<Lights> lights;              ///< none: a headlight
+  /// > 0: extinctions are those of the transfer function times min(1, |gradient| / modulation),
+  /// with the gradient of each cell.
+  std::optional<double> modulation;
   std::vector<ClipPlane> clip;        ///< what all of them keep is drawn
   std::optional<DepthCue> depth_cue;  ///< mode iso
   Camera camera;
@@ -44,6 +64,17 @@ struct Scene {
 
 [[nodiscard]] std::string to_string(Mode mode);
 [[nodiscard]] std::string to_string(Shading shading);
+
+/// Whether normals are those of the cells, not interpolated between vertices.
+[[nodiscard]] constexpr bool has_cell_normals(const Scene& scene) {
+  return scene.shading == Shading::flat ||
+         (scene.shading != Shading::smooth && scene.gradient == GradientOf::cell);
+}
+
+/// Whether a medium is lit.
+[[nodiscard]] constexpr bool is_lit_medium(const Scene& scene) {
+  return scene.mode == Mode::full && scene.shading != Shading::none;
+}
 
 /// Whether the picture does not depend on the order in which cells are drawn.
 [[nodiscard]] bool is_commutative(const Scene& scene);

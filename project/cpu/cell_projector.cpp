@@ -21,7 +21,8 @@ CellProjector::CellProjector(const Scene& scene, const Plan& plan)
   middle_ = 0.5 * box.min() + 0.5 * box.max();
   const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
   if (half_diagonal > 0) radius_ = half_diagonal;
-  if (scene.mode == Mode::iso) surfaces_.emplace(scene, cells_);
+  surfaces_ = surfaces(scene, cells_);
+  if (scene.shading != Shading::none) lighting_.emplace(scene, cells_);
   if (scene.mode == Mode::thickness || scene.mode == Mode::iso) return;
   medium_.emplace(scene.transfer_function, cells_.scale, radius_);
   intervals_ = cell_intervals(*medium_, cells_);
@@ -47,7 +48,11 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   picture.clip = scene_.clip;
   picture.medium = medium_ ? &*medium_ : nullptr;
   picture.intervals = intervals_;
-  picture.surfaces = surfaces_ ? &*surfaces_ : nullptr;
+  picture.surfaces = surfaces_;
+  picture.lighting = lighting_ ? &*lighting_ : nullptr;
+  const std::vector<ViewedLight> lights =
+      lighting_ ? lighting_->view(frame, projection) : std::vector<ViewedLight>{};
+  picture.lights = lights;
   picture.image = &image;
   const std::vector<std::uint32_t> tiles = bins_.largest_first();
   std::atomic<std::uint64_t> fragments{0};

@@ -5,6 +5,7 @@
 
 #include "project/camera.h"
 #include "project/cpu/drawn_cells.h"
+#include "project/cpu/lighting.h"
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
 #include "project/cpu/tile_bins.h"
@@ -40,7 +41,8 @@ class CellProjector {
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::optional<Medium> medium_;
   std::vector<IntervalRange> intervals_;
-  std::optional<Surfaces> surfaces_;
+  std::vector<Surface> surfaces_;
+  std::optional<Lighting> lighting_;
   ViewPoints points_;
   TileBins bins_;
 };

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "project/modulation.h"
 #include "project/shown_cells.h"
 
 namespace tetraglass::project::cpu {
@@ -42,6 +43,10 @@ DrawnCells::DrawnCells(const Scene& scene) : scale(scene.field) {
       if (of_cells) cell_values[i] = scale.scaled(values[numbers[i]]);
     }
   });
+  if (scene.modulation) {
+    const std::vector<double> all = cell_densities(scene);
+    for (const std::uint32_t cell : numbers) densities.push_back(static_cast<float>(all[cell]));
+  }
   if (of_cells) return;
   point_values.resize(values.size());
   base::parallel_ranges(values.size(), kGrain, [&](std::size_t begin, std::size_t end) {

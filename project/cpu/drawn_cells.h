@@ -42,6 +42,8 @@ struct DrawnCells {
 
   std::vector<float> point_values;  ///< scaled; empty for a cell field
   std::vector<float> cell_values;   ///< scaled, of each drawn cell; empty for a point field
+  /// What the extinction of each drawn cell is multiplied by; empty without modulation.
+  std::vector<float> densities;
 };
 
 }  // namespace tetraglass::project::cpu

@@ -22,6 +22,8 @@ struct IntervalPart {
   Float front;
   Float back;
   Float length;
+  Float start;  ///< where the part begins on its segment, from 0 to 1
+  Float end;    ///< ... and where it ends
 };
 
 HWY_INLINE Float position(const MediumInterval& interval, Float value) {
@@ -40,14 +42,16 @@ HWY_INLINE void walk_intervals(const Medium& medium, const IntervalRange& range,
   const MediumInterval* intervals = medium.intervals().data();
   if (range.first == range.last) {
     const MediumInterval& only = intervals[range.first];
-    visit(only, IntervalPart{position(only, s.front), position(only, s.back), length});
+    visit(only,
+          IntervalPart{position(only, s.front), position(only, s.back), length, set(0), set(1)});
     return;
   }
   const Float difference = hn::Sub(s.back, s.front);
   const Lanes flat = hn::Lt(hn::Abs(difference), set(kLeastDifference));
   const Float back = hn::IfThenElse(flat, hn::Add(s.front, set(kLeastDifference)), s.back);
   const Float span = hn::Abs(hn::Sub(back, s.front));
-  const Float length_of_value = hn::Mul(length, reciprocal(span));
+  const Float share_of_value = reciprocal(span);
+  const Float length_of_value = hn::Mul(length, share_of_value);
   for (std::uint32_t k = range.first; k <= range.last; ++k) {
     const MediumInterval& interval = intervals[descend ? range.last - (k - range.first) : k];
     if (interval.clear()) continue;
@@ -58,7 +62,9 @@ HWY_INLINE void walk_intervals(const Medium& medium, const IntervalRange& range,
     const Float from = hn::Min(hn::Max(s.front, low), high);
     const Float to = hn::Min(hn::Max(back, low), high);
     const Float part = hn::Mul(length_of_value, hn::Abs(hn::Sub(to, from)));
-    visit(interval, IntervalPart{position(interval, from), position(interval, to), part});
+    visit(interval, IntervalPart{position(interval, from), position(interval, to), part,
+                                 hn::Mul(share_of_value, hn::Abs(hn::Sub(from, s.front))),
+                                 hn::Mul(share_of_value, hn::Abs(hn::Sub(to, s.front)))});
   }
 }
 

@@ -29,9 +29,11 @@ MediumInterval interval(const preint::Medium& low_end, const preint::Medium& hig
   return result;
 }
 
-}  // namespace
-
-Medium::Medium(const preint::TransferFunction& tf, const ValueScale& scale, double radius) {
+/// Calls visit(i, low, high, scaled_low, scaled_high) for the intervals i of the transfer function
+/// that the field's range meets, ascending; those narrower than floats can tell are left out.
+template <class Visit>
+void for_each_interval(const preint::TransferFunction& tf, const ValueScale& scale,
+                       const Visit& visit) {
   const std::vector<preint::ControlPoint>& points = tf.points();
   for (std::size_t i = 0; i <= points.size(); ++i) {
     // The ends as values of the field, cut to its range.
@@ -41,10 +43,43 @@ Medium::Medium(const preint::TransferFunction& tf, const ValueScale& scale, doub
     if (i < points.size()) high = std::min(high, points[i].value);
     const float scaled_low = std::max(-1.0F, scale.scaled(low));
     const float scaled_high = std::min(1.0F, scale.scaled(high));
-    if (!(scaled_low < scaled_high)) continue;
-    intervals_.push_back(
-        interval(tf.in_interval(i, low), tf.in_interval(i, high), scaled_low, scaled_high, radius));
+    if (scaled_low < scaled_high) visit(i, low, high, scaled_low, scaled_high);
   }
+}
+
+/// The material at a value of interval i: at a jump, that of the interval's side.
+preint::Material material_in_interval(const preint::TransferFunction& tf, std::size_t i,
+                                      double value) {
+  const bool at_upper_end = i < tf.points().size() && value == tf.points()[i].value;
+  return at_upper_end ? tf.points()[i].material : tf.material_at(value);
+}
+
+std::array<float, 4> coefficients(const preint::Material& m) {
+  return {static_cast<float>(m.ambient), static_cast<float>(m.diffuse),
+          static_cast<float>(m.specular), static_cast<float>(m.shininess)};
+}
+
+}  // namespace
+
+Medium::Medium(const preint::TransferFunction& tf, const ValueScale& scale, double radius) {
+  for_each_interval(
+      tf, scale, [&](std::size_t i, double low, double high, float scaled_low, float scaled_high) {
+        intervals_.push_back(interval(tf.in_interval(i, low), tf.in_interval(i, high), scaled_low,
+                                      scaled_high, radius));
+      });
+}
+
+std::vector<MaterialInterval> material_intervals(const preint::TransferFunction& tf,
+                                                 const ValueScale& scale) {
+  std::vector<MaterialInterval> result;
+  for_each_interval(tf, scale, [&](std::size_t i, double low, double high, float, float) {
+    MaterialInterval interval;
+    interval.low = coefficients(material_in_interval(tf, i, low));
+    const std::array<float, 4> upper = coefficients(material_in_interval(tf, i, high));
+    for (std::size_t k = 0; k < 4; ++k) interval.rise[k] = upper[k] - interval.low[k];
+    result.push_back(interval);
+  });
+  return result;
 }
 
 IntervalRange Medium::range(float low, float high) const {

@@ -50,6 +50,17 @@ class Medium {
   std::vector<MediumInterval> intervals_;
 };
 
+/// The coefficients of light (preint::Material) over an interval: at its low end, and what is added
+/// up to its high end.
+struct MaterialInterval {
+  std::array<float, 4> low = {};  ///< ambient, diffuse, specular, shininess
+  std::array<float, 4> rise = {};
+};
+
+/// Of each interval of the medium of these.
+[[nodiscard]] std::vector<MaterialInterval> material_intervals(const preint::TransferFunction& tf,
+                                                               const ValueScale& scale);
+
 /// For each drawn cell, the intervals of its values.
 [[nodiscard]] std::vector<IntervalRange> cell_intervals(const Medium& medium,
                                                         const DrawnCells& cells);

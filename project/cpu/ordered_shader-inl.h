@@ -83,7 +83,6 @@ class FullShader : public MediumShader {
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
-    const Float length = hn::IfThenElseZero(covered, s.length);
     Fragment f;
     f.channel = {hn::Add(s.near, s.far), set(0), set(0), set(0), set(0)};
     // In a cell seen in perspective the field may rise along one ray and fall along another.
@@ -91,11 +90,11 @@ class FullShader : public MediumShader {
     const bool descend = !hn::AllFalse(FloatTag(), falling);
     if (HWY_LIKELY(!descend || range_.first == range_.last ||
                    hn::AllTrue(FloatTag(), hn::Or(falling, hn::Not(covered))))) {
-      walk_intervals(medium_, range_, descend, s, length,
+      walk_intervals(medium_, range_, descend, s, length(s, covered),
                      [&](const MediumInterval& interval, const IntervalPart& part)
                          HWY_ATTR { add_behind(shade(interval, part), f); });
     } else {
-      walk_intervals(medium_, range_, false, s, length,
+      walk_intervals(medium_, range_, false, s, length(s, covered),
                      [&](const MediumInterval& interval, const IntervalPart& part)
                          HWY_ATTR { add_beside(shade(interval, part), falling, f); });
     }

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "project/cpu/iso_shader-inl.h"
+#include "project/cpu/lit_shader-inl.h"
 #include "project/cpu/ordered_shader-inl.h"
 #include "project/cpu/tile_raster-inl.h"
 #include "project/cpu/tile_shaders-inl.h"
@@ -184,6 +185,26 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   return stats;
 }
 
+TileStats blend_medium(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                       TileBuffers::Contents& buffers) {
+  if (picture.lighting == nullptr) return blend_tile<FullShader>(picture, x, y, cells, buffers);
+  switch (picture.lighting->shading) {
+    case Shading::single:
+      return blend_tile<LitOnceShader<Shading::single>>(picture, x, y, cells, buffers);
+    case Shading::weighted:
+      return blend_tile<LitOnceShader<Shading::weighted>>(picture, x, y, cells, buffers);
+    case Shading::surface:
+      return blend_tile<LitOnceShader<Shading::surface>>(picture, x, y, cells, buffers);
+    case Shading::interpolated:
+      return blend_tile<LitPartsShader<2>>(picture, x, y, cells, buffers);
+    case Shading::none:
+    case Shading::flat:
+    case Shading::smooth:
+      break;
+  }
+  return blend_tile<LitPartsShader<3>>(picture, x, y, cells, buffers);
+}
+
 TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                TileBuffers::Contents& buffers) {
   if (picture.projection->perspective) {
@@ -207,7 +228,7 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
                  ? shade_tile<FieldMaximumShader>(picture, x, y, cells, buffers)
                  : shade_tile<ColorMaximumShader>(picture, x, y, cells, buffers);
     case Mode::full:
-      return blend_tile<FullShader>(picture, x, y, cells, buffers);
+      return blend_medium(picture, x, y, cells, buffers);
     case Mode::iso:
       return blend_tile<IsoShader>(picture, x, y, cells, buffers);
   }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "project/cpu/drawn_cells.h"
+#include "project/cpu/lighting.h"
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
 #include "project/cpu/view_points.h"
@@ -31,7 +32,9 @@ struct Picture {
   std::span<const ClipPlane> clip;
   const Medium* medium = nullptr;            ///< null in modes that have no use for it
   std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium
-  const Surfaces* surfaces = nullptr;        ///< null in modes other than iso
+  std::span<const Surface> surfaces;         ///< mode iso
+  const Lighting* lighting = nullptr;        ///< null without shading
+  std::span<const ViewedLight> lights;       ///< of the lighting; none for a headlight
   Image* image = nullptr;
 };
 

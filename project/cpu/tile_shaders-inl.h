@@ -77,6 +77,12 @@ class MediumShader {
     return result;
   }
 
+  /// The length of the segments, as the medium has it: 0 in lanes that are not covered.
+  [[nodiscard]] HWY_INLINE Float length(const BlockSegments& s, Lanes covered) const {
+    const Float length = hn::IfThenElseZero(covered, s.length);
+    return cells_.densities.empty() ? length : hn::Mul(length, set(cells_.densities[cell_]));
+  }
+
   const DrawnCells& cells_;
   const Medium& medium_;
   const IntervalRange* ranges_;
@@ -93,7 +99,7 @@ class EmissionShader : public MediumShader {
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
     Float sum[3] = {set(0), set(0), set(0)};
-    walk_intervals(medium_, range_, false, s, hn::IfThenElseZero(covered, s.length),
+    walk_intervals(medium_, range_, false, s, length(s, covered),
                    [&](const MediumInterval& interval, const IntervalPart& part)
                        HWY_ATTR { add_part(interval, part, sum); });
     for (std::size_t c = 0; c < 3; ++c) sums_.add(block, c, sum[c]);
@@ -130,7 +136,7 @@ class AbsorptionShader : public MediumShader {
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
     Float depth = set(0);
-    walk_intervals(medium_, range_, false, s, hn::IfThenElseZero(covered, s.length),
+    walk_intervals(medium_, range_, false, s, length(s, covered),
                    [&](const MediumInterval& interval, const IntervalPart& part) HWY_ATTR {
                      const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
                      depth = hn::MulAdd(part.length, extinction(interval, middle), depth);

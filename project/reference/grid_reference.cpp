@@ -14,8 +14,8 @@
 #include "base/stopwatch.h"
 #include "preint/gauss.h"
 #include "preint/segment_integral.h"
+#include "project/light/phong.h"
 #include "project/reference/ray_voxels.h"
-#include "project/shading.h"
 
 namespace tetraglass::project {
 namespace {
@@ -194,7 +194,8 @@ class Tracer {
           const double t = piece.position(surface.value);
           const Eigen::Vector3d at =
               voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
-          lit = shade_headlight(lit, grid_gradient(scene_, scene_.grid->index_at(at)), to_viewer);
+          lit = shade(scene_.lights, lit, scene_.transfer_function.material_at(surface.value), at,
+                      grid_gradient(scene_, scene_.grid->index_at(at)), to_viewer);
         }
         color += transmittance * surface.opacity * lit;
         transmittance *= 1 - surface.opacity;

@@ -13,8 +13,10 @@
 #include "base/stopwatch.h"
 #include "mesh/gradients.h"
 #include "preint/segment_integral.h"
+#include "project/light/phong.h"
+#include "project/modulation.h"
+#include "project/reference/lit_segment.h"
 #include "project/reference/ray_cells.h"
-#include "project/shading.h"
 
 namespace tetraglass::project {
 namespace {
@@ -25,10 +27,11 @@ using Rgba = Eigen::Array4d;
 class Tracer {
  public:
   explicit Tracer(const Scene& scene) : scene_(scene), cells_(scene) {
-    if (scene.mode != Mode::iso) return;
-    if (scene.shading == Shading::smooth)
-      gradients_ = mesh::vertex_gradients(*scene.mesh, scene.field);
-    if (scene.shading == Shading::flat) gradients_ = mesh::cell_gradients(*scene.mesh, scene.field);
+    if (scene.shading != Shading::none) {
+      gradients_ = has_cell_normals(scene) ? mesh::cell_gradients(*scene.mesh, scene.field)
+                                           : mesh::vertex_gradients(*scene.mesh, scene.field);
+    }
+    if (scene.modulation) densities_ = cell_densities(scene);
   }
 
   [[nodiscard]] const Frame& frame() const { return cells_.frame(); }
@@ -39,25 +42,43 @@ class Tracer {
     cells_.segments(x, y, segments);
     if (!scene_.clip.empty()) clip(x, y, segments);
     if (segments.empty()) return Rgba::Zero();
-    const Eigen::Vector3d ray = cells_.frame().ray_direction(cells_.frame().image_plane(x, y));
+    const Ray ray(cells_.frame(), x, y);
     switch (scene_.mode) {
       case Mode::full:
-        return full(segments, ray.norm());
+        return scene_.shading == Shading::none ? full(segments, ray) : lit(segments, ray);
       case Mode::emission:
-        return emission(segments, ray.norm());
+        return emission(segments, ray);
       case Mode::absorption:
-        return absorption(segments, ray.norm());
+        return absorption(segments, ray);
       case Mode::mip:
         return mip(segments);
       case Mode::iso:
-        return iso(segments, -(cells_.frame().axes().transpose() * ray).normalized());
+        return iso(segments, ray);
       case Mode::thickness:
-        return thickness(segments, ray.norm());
+        return thickness(segments, ray);
     }
     return Rgba::Zero();
   }
 
  private:
+  /// A pixel's ray in the mesh's coordinates.
+  struct Ray {
+    Ray(const Frame& frame, int x, int y) {
+      const Eigen::Vector2d plane = frame.image_plane(x, y);
+      start = frame.eye() + frame.axes().transpose() * frame.ray_origin(plane);
+      step = frame.axes().transpose() * frame.ray_direction(plane);
+      stretch = step.norm();
+      to_viewer = -step / stretch;
+    }
+    /// At a depth along the view axis.
+    [[nodiscard]] Eigen::Vector3d at(double depth) const { return start + depth * step; }
+
+    Eigen::Vector3d start;  ///< at depth 0
+    Eigen::Vector3d step;   ///< for a unit of depth
+    Eigen::Vector3d to_viewer;
+    double stretch;  ///< the length of a unit of depth
+  };
+
   /// Cuts the segments where the scene's planes do, and drops those of which nothing is left.
   void clip(int x, int y, std::vector<RaySegment>& segments) const {
     const DepthRange kept =
@@ -80,38 +101,40 @@ class Tracer {
     });
   }
 
-  /// `stretch` is the world length of a unit of depth.
-  static preint::Segment piece(const RaySegment& s, double stretch) {
-    return {s.front, s.back, (s.exit - s.entry) * stretch};
+  /// What is integrated: shorter than it is where the extinction is modulated, which comes to the
+  /// same.
+  [[nodiscard]] preint::Segment piece(const RaySegment& s, const Ray& ray) const {
+    const double length = (s.exit - s.entry) * ray.stretch;
+    return {s.front, s.back, scene_.modulation ? length * densities_[s.cell] : length};
   }
   static Rgba rgba(const preint::Color& color, double alpha) {
     return {color.x(), color.y(), color.z(), alpha};
   }
 
-  [[nodiscard]] Rgba full(const std::vector<RaySegment>& segments, double stretch) const {
+  [[nodiscard]] Rgba full(const std::vector<RaySegment>& segments, const Ray& ray) const {
     preint::Color color = preint::Color::Zero();
     double transmittance = 1;
     for (const RaySegment& segment : segments) {
       const preint::Radiance radiance =
-          integrate_full(scene_.transfer_function, piece(segment, stretch));
+          integrate_full(scene_.transfer_function, piece(segment, ray));
       color += transmittance * radiance.color;
       transmittance *= radiance.transmittance;
     }
     return rgba(color, 1 - transmittance);
   }
 
-  [[nodiscard]] Rgba emission(const std::vector<RaySegment>& segments, double stretch) const {
+  [[nodiscard]] Rgba emission(const std::vector<RaySegment>& segments, const Ray& ray) const {
     preint::Color color = preint::Color::Zero();
     for (const RaySegment& segment : segments) {
-      color += integrate_emission(scene_.transfer_function, piece(segment, stretch));
+      color += integrate_emission(scene_.transfer_function, piece(segment, ray));
     }
     return rgba(color, 0);
   }
 
-  [[nodiscard]] Rgba absorption(const std::vector<RaySegment>& segments, double stretch) const {
+  [[nodiscard]] Rgba absorption(const std::vector<RaySegment>& segments, const Ray& ray) const {
     double depth = 0;
     for (const RaySegment& segment : segments) {
-      depth += optical_depth(scene_.transfer_function, piece(segment, stretch));
+      depth += optical_depth(scene_.transfer_function, piece(segment, ray));
     }
     return {0, 0, 0, -std::expm1(-depth)};
   }
@@ -130,8 +153,7 @@ class Tracer {
     return rgba(scene_.transfer_function.at(largest).color, 1);
   }
 
-  [[nodiscard]] Rgba iso(const std::vector<RaySegment>& segments,
-                         const Eigen::Vector3d& to_viewer) const {
+  [[nodiscard]] Rgba iso(const std::vector<RaySegment>& segments, const Ray& ray) const {
     preint::Color color = preint::Color::Zero();
     double transmittance = 1;
     for (const RaySegment& segment : segments) {
@@ -139,12 +161,37 @@ class Tracer {
         const preint::Isosurface& surface = scene_.isosurfaces[i];
         const double t = (surface.value - segment.front) / (segment.back - segment.front);
         const preint::Color shaded =
-            intensity(segment, t) * shade_headlight(surface.color, gradient(segment, t), to_viewer);
+            intensity(segment, t) * lit_color(segment, t, ray, surface.color,
+                                              scene_.transfer_function.material_at(surface.value));
         color += transmittance * surface.opacity * shaded;
         transmittance *= 1 - surface.opacity;
       }
     }
     return rgba(color, 1 - transmittance);
+  }
+
+  [[nodiscard]] Rgba lit(const std::vector<RaySegment>& segments, const Ray& ray) const {
+    preint::Color color = preint::Color::Zero();
+    double transmittance = 1;
+    for (const RaySegment& segment : segments) {
+      const preint::Radiance radiance = integrate_lit(
+          scene_.transfer_function, piece(segment, ray),
+          [&](double t, double value, const preint::Color& unlit) {
+            return lit_color(segment, t, ray, unlit, scene_.transfer_function.material_at(value));
+          });
+      color += transmittance * radiance.color;
+      transmittance *= radiance.transmittance;
+    }
+    return rgba(color, 1 - transmittance);
+  }
+
+  /// At the part t of the segment.
+  [[nodiscard]] preint::Color lit_color(const RaySegment& segment, double t, const Ray& ray,
+                                        const preint::Color& color,
+                                        const preint::Material& material) const {
+    const double depth = segment.entry + t * (segment.exit - segment.entry);
+    return shade(scene_.lights, color, material, ray.at(depth), gradient(segment, t),
+                 ray.to_viewer);
   }
 
   /// Of a surface at the part t of the segment, by the scene's depth cue.
@@ -153,9 +200,10 @@ class Tracer {
     return scene_.depth_cue->intensity(segment.entry + t * (segment.exit - segment.entry));
   }
 
-  [[nodiscard]] static Rgba thickness(const std::vector<RaySegment>& segments, double stretch) {
+  [[nodiscard]] static Rgba thickness(const std::vector<RaySegment>& segments, const Ray& ray) {
     double length = 0;
-    for (const RaySegment& segment : segments) length += (segment.exit - segment.entry) * stretch;
+    for (const RaySegment& segment : segments)
+      length += (segment.exit - segment.entry) * ray.stretch;
     return rgba(preint::Color::Constant(length), length > 0 ? 1 : 0);
   }
 
@@ -163,7 +211,7 @@ class Tracer {
   /// shading.
   [[nodiscard]] Eigen::Vector3d gradient(const RaySegment& segment, double t) const {
     if (scene_.shading == Shading::none) return Eigen::Vector3d::Zero();
-    if (scene_.shading == Shading::flat) return gradients_[segment.cell];
+    if (has_cell_normals(scene_)) return gradients_[segment.cell];
     const mesh::Cell& cell = scene_.mesh->cells[segment.cell];
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = 0; i < 4; ++i) {
@@ -176,7 +224,8 @@ class Tracer {
 
   const Scene& scene_;
   RayCells cells_;
-  std::vector<Eigen::Vector3d> gradients_;  // per vertex (smooth) or per cell (flat)
+  std::vector<Eigen::Vector3d> gradients_;  // per vertex or per cell; empty without shading
+  std::vector<double> densities_;           // per cell; empty without modulation
 };
 
 }  // namespace

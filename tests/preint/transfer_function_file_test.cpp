@@ -75,8 +75,7 @@ TEST_F(TransferFunctionFile, ErrorsSayWhere) {
   EXPECT_THAT(error("{}"), HasSubstr("lacks 'points'"));
   EXPECT_THAT(error(R"({"pionts": []})"),
               AllOf(HasSubstr("unknown key 'pionts'"), HasSubstr("did you mean 'points'?")));
-  EXPECT_THAT(error(R"({"points": 3})"),
-              HasSubstr("'points' must be a list of points, not number"));
+  EXPECT_THAT(error(R"({"points": 3})"), HasSubstr("points must be a list of points, not number"));
   EXPECT_THAT(error(R"({"points": []})"), HasSubstr(file_ + ": a transfer function needs"));
   EXPECT_THAT(error(R"({"points": [7]})"), HasSubstr("points[0] must be an object"));
   EXPECT_THAT(error(R"({"points": [{"value": 0, "extinction": 1}]})"),

@@ -286,6 +286,7 @@ TEST(GlPlan, RefusesWhatALayoutLacks) {
   request.gl = {};
   request.gl.target = TargetFormat::rgba8;
   scene.mode = Mode::thickness;
+  scene.shading = Shading::none;
   EXPECT_THROW((void)plan(scene, request), base::UsageError);
   request.gl.target = TargetFormat::rgba16f;
   EXPECT_NO_THROW((void)plan(scene, request));

@@ -9,7 +9,7 @@
 #include "project/gl/cell_projector.h"
 #include "project/gl/gl_projector.h"
 #include "project/gl/program.h"
-#include "project/shading.h"
+#include "project/light/phong.h"
 #include "tests/support/chord.h"
 #include "tests/support/covered_once.h"
 #include "tests/support/meshes.h"
@@ -397,7 +397,7 @@ TEST(Gl, ObliquePlaneIsMetWhereTheEndsOfTheRayDiffer) {
           if (!met) continue;
           const Color expected = shading == Shading::none
                                      ? scene.isosurfaces[0].color
-                                     : shade_headlight(scene.isosurfaces[0].color, normal, -ray);
+                                     : shade({}, scene.isosurfaces[0].color, {}, hit, normal, -ray);
           for (int c = 0; c < 3; ++c) {
             ASSERT_NEAR(image.pixel(x, y)[c], expected[c], 1e-4)
                 << view.name << ' ' << to_string(shading) << ' ' << x << ' ' << y;

@@ -107,7 +107,26 @@ TEST_F(PlanTest, NoWorkWithoutNeed) {
   shaded.shading = Shading::smooth;
   EXPECT_TRUE(plan(shaded, {}).gradients);
   shaded.shading = Shading::flat;
-  EXPECT_FALSE(plan(shaded, {}).gradients);
+  EXPECT_TRUE(plan(shaded, {}).gradients);
+}
+
+TEST_F(PlanTest, LightWhereThereIsSomethingToLight) {
+  Scene medium = scene(Mode::full);
+  medium.shading = Shading::weighted;
+  EXPECT_TRUE(plan(medium, {}).gradients);
+  medium.mode = Mode::iso;
+  EXPECT_THROW((void)plan(medium, {}), base::UsageError);
+  Scene unlit = scene(Mode::emission);
+  unlit.shading = Shading::smooth;
+  EXPECT_THROW((void)plan(unlit, {}), base::UsageError);
+  Scene dark = scene(Mode::full);
+  dark.lights = Lights{};
+  EXPECT_THROW((void)plan(dark, {}), base::UsageError);
+  Scene modulated = scene(Mode::emission);
+  modulated.modulation = 1;
+  EXPECT_NO_THROW((void)plan(modulated, {}));
+  modulated.mode = Mode::mip;
+  EXPECT_THROW((void)plan(modulated, {}), base::UsageError);
 }
 
 TEST_F(PlanTest, TheReferenceTakesNoShortcuts) {

@@ -1,0 +1,84 @@
+#include "project/cpu/lighting.h"
+
+#include <algorithm>
+
+#include "mesh/gradients.h"
+
+namespace tetraglass::project::cpu {
+
+namespace {
+
+using preint::ControlPoint;
+
+double largest_shininess(const preint::TransferFunction& tf) {
+  double largest = 0;
+  for (const ControlPoint& point : tf.points())
+    largest = std::max(largest, point.material.shininess);
+  return largest;
+}
+
+/// The middle of the values of largest extinction, where these are neighbours.
+double value_of_surface(const preint::TransferFunction& tf) {
+  const std::vector<ControlPoint>& points = tf.points();
+  const auto less = [](const ControlPoint& a, const ControlPoint& b) {
+    return a.extinction < b.extinction;
+  };
+  const auto first = std::max_element(points.begin(), points.end(), less);
+  auto last = first;
+  while (last + 1 != points.end() && (last + 1)->extinction == first->extinction) ++last;
+  return 0.5 * first->value + 0.5 * last->value;
+}
+
+}  // namespace
+
+Lighting::Lighting(const Scene& scene, const DrawnCells& cells)
+    : shading(scene.shading),
+      has_cell_normals(project::has_cell_normals(scene)),
+      is_headlight(!scene.lights.has_value()) {
+  if (has_cell_normals) {
+    const std::vector<Eigen::Vector3d> all = mesh::cell_gradients(*scene.mesh, scene.field);
+    for (const std::uint32_t cell : cells.numbers) gradients.push_back(all[cell]);
+  } else {
+    gradients = mesh::vertex_gradients(*scene.mesh, scene.field);
+  }
+  // Only directions matter, and floats have to hold their squares.
+  double largest = 0;
+  for (const Eigen::Vector3d& gradient : gradients) {
+    largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
+  }
+  if (largest > 0) {
+    for (Eigen::Vector3d& gradient : gradients) gradient /= largest;
+  }
+  const preint::TransferFunction& tf = scene.transfer_function;
+  if (scene.mode == Mode::full) {
+    materials = material_intervals(tf, cells.scale);
+    surface_value = cells.scale.scaled(value_of_surface(tf));
+  }
+  if (is_headlight) return;
+  for (std::size_t c = 0; c < 3; ++c) {
+    ambient[c] = static_cast<float>(scene.lights->ambient[static_cast<Eigen::Index>(c)]);
+  }
+  sources = light_sources(*scene.lights, mesh::bounds(*scene.mesh), largest_shininess(tf));
+}
+
+std::vector<ViewedLight> Lighting::view(const Frame& frame, const Projection& projection) const {
+  std::vector<ViewedLight> result;
+  const double start = projection.perspective ? projection.middle_depth * projection.radius
+                                              : projection.depth_offset;
+  for (const LightSource& source : sources) {
+    Eigen::Vector3d place = source.far_away ? Eigen::Vector3d(frame.axes() * source.place)
+                                            : frame.to_camera(source.place);
+    if (!source.far_away) place = (place - Eigen::Vector3d(0, 0, start)) / projection.radius;
+    ViewedLight light;
+    light.far_away = source.far_away;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto i = static_cast<Eigen::Index>(c);
+      light.place[c] = static_cast<float>(std::clamp(place[i], -1e15, 1e15));
+      light.color[c] = static_cast<float>(source.color[i]);
+    }
+    result.push_back(light);
+  }
+  return result;
+}
+
+}  // namespace tetraglass::project::cpu
