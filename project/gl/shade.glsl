@@ -1,4 +1,4 @@
-// Phong shading by a headlight (meissner2002 Eq. 1 with l = v); project/shading.h says the same:
+// Phong shading by a headlight (meissner2002 Eq. 1 with l = v); project/light/phong.h says the same:
 // k_a c + k_d c |n.v| + k_s max(0, r.v)^32, r.v = 2 (n.v)^2 - 1 for the light at the viewer.
 // k_a 0.1, k_d 0.7, k_s 0.2. Unshaded where the gradient is 0.
 
