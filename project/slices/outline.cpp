@@ -7,7 +7,31 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Polygon = std::vector<Vector2d>;
+
+/// Points, without an allocation: there are thousands of outlines in a frame.
+template <class Point, std::size_t Most>
+class Points {
+ public:
+  void add(const Point& point) { points_[size_++] = point; }
+  void remove_last() { --size_; }
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Point& operator[](std::size_t i) const { return points_[i]; }
+  [[nodiscard]] const Point& back() const { return points_[size_ - 1]; }
+  [[nodiscard]] Point* begin() { return points_.data(); }
+  [[nodiscard]] Point* end() { return points_.data() + size_; }
+  [[nodiscard]] const Point* begin() const { return points_.data(); }
+  [[nodiscard]] const Point* end() const { return points_.data() + size_; }
+
+ private:
+  std::array<Point, Most> points_;
+  std::size_t size_ = 0;
+};
+
+// A box between two planes has at most 8 corners and 2 cuts of 12 edges; its outline with a margin
+// four times as many; and a cut at the tile adds one at each of the four sides.
+using Corners = Points<Vector3d, 32>;
+using Polygon = Points<Vector2d, 136>;
 
 double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
   return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x();
@@ -15,32 +39,33 @@ double cross(const Vector2d& o, const Vector2d& a, const Vector2d& b) {
 
 /// Andrew's monotone chain. Of points that all coincide: one of them.
 Polygon convex_hull(Polygon& points) {
-  std::ranges::sort(points, [](const Vector2d& a, const Vector2d& b) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
   Polygon hull;
-  const auto chain = [&](auto begin, auto end) {
+  const std::size_t count = points.size();
+  const auto chain = [&](bool back) {
     const std::size_t first = hull.size();
-    for (auto point = begin; point != end; ++point) {
-      while (hull.size() >= first + 2 && cross(hull[hull.size() - 2], hull.back(), *point) <= 0) {
-        hull.pop_back();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector2d& point = points[back ? count - 1 - i : i];
+      while (hull.size() >= first + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 0) {
+        hull.remove_last();
       }
-      hull.push_back(*point);
+      hull.add(point);
     }
-    hull.pop_back();  // the next chain begins with it
+    hull.remove_last();  // the next chain begins with it
   };
-  chain(points.begin(), points.end());
-  chain(points.rbegin(), points.rend());
-  if (hull.empty()) hull.push_back(points.front());
+  chain(false);
+  chain(true);
+  if (hull.size() == 0) hull.add(points[0]);
   return hull;
 }
 
 /// The corners of the part between the depths: those of the whole and where its edges are cut.
-void cut_corners(const std::array<Vector3d, 8>& corners, const Depths& depths,
-                 std::vector<Vector3d>& result) {
+void cut_corners(const std::array<Vector3d, 8>& corners, const Depths& depths, Corners& result) {
   for (std::size_t i = 0; i < 8; ++i) {
     const Vector3d& a = corners[i];
-    if (a.z() >= depths.near && a.z() <= depths.far) result.push_back(a);
+    if (a.z() >= depths.near && a.z() <= depths.far) result.add(a);
     for (const std::size_t bit : {1U, 2U, 4U}) {
       if ((i & bit) != 0) continue;
       const Vector3d& b = corners[i | bit];
@@ -48,7 +73,7 @@ void cut_corners(const std::array<Vector3d, 8>& corners, const Depths& depths,
         if ((a.z() < depth) != (b.z() < depth)) {
           Vector3d point = a + (depth - a.z()) / (b.z() - a.z()) * (b - a);
           point.z() = depth;
-          result.push_back(point);
+          result.add(point);
         }
       }
     }
@@ -63,13 +88,13 @@ Polygon cut(const Polygon& polygon, int axis, double sign, double limit) {
     const Vector2d& b = polygon[(i + 1) % polygon.size()];
     const double over_a = sign * a[axis] - limit;
     const double over_b = sign * b[axis] - limit;
-    if (over_a <= 0) result.push_back(a);
-    if ((over_a <= 0) != (over_b <= 0)) result.push_back(a + over_a / (over_a - over_b) * (b - a));
+    if (over_a <= 0) result.add(a);
+    if ((over_a <= 0) != (over_b <= 0)) result.add(a + over_a / (over_a - over_b) * (b - a));
   }
   return result;
 }
 
-Polygon whole(const gl::Tile& tile) {
+std::vector<Vector2d> whole(const gl::Tile& tile) {
   const double right = tile.width + 1;
   const double bottom = tile.height + 1;
   return {{-1, -1}, {right, -1}, {right, bottom}, {-1, bottom}};
@@ -79,9 +104,13 @@ Polygon whole(const gl::Tile& tile) {
 
 std::vector<Vector2d> outline(const GridView& view, const std::array<Vector3d, 8>& corners,
                               const Depths& depths, const gl::Tile& tile, double margin) {
-  const auto [nearest, farthest] =
-      std::ranges::minmax(corners, {}, [](const Vector3d& corner) { return corner.z(); });
-  Depths seen{std::max(depths.near, nearest.z()), std::min(depths.far, farthest.z())};
+  double nearest = corners[0].z();
+  double farthest = nearest;
+  for (const Vector3d& corner : corners) {
+    nearest = std::min(nearest, corner.z());
+    farthest = std::max(farthest, corner.z());
+  }
+  const Depths seen{std::max(depths.near, nearest), std::min(depths.far, farthest)};
   if (!(seen.near <= seen.far)) return {};
   if (!view.parallel()) {
     if (!(seen.far > 0)) return {};
@@ -89,27 +118,32 @@ std::vector<Vector2d> outline(const GridView& view, const std::array<Vector3d, 8
     constexpr double kNear = 1e-6;
     if (!(seen.near > kNear * seen.far)) return whole(tile);
   }
-  std::vector<Vector3d> points;
-  points.reserve(32);
+  Corners points;
   cut_corners(corners, seen, points);
-  if (points.empty()) return {};
+  if (points.size() == 0) return {};
   Polygon images;
   for (const Vector3d& point : points) {
-    images.push_back(view.pixel(point) - Vector2d(tile.x, tile.y));
+    images.add(view.pixel(point) - Vector2d(tile.x, tile.y));
   }
-  Polygon polygon = convex_hull(images);
+  const Polygon inner = convex_hull(images);
   images.clear();
-  for (const Vector2d& at : polygon) {
+  for (const Vector2d& at : inner) {
     for (const double x : {-margin, margin}) {
-      for (const double y : {-margin, margin}) images.emplace_back(at + Vector2d(x, y));
+      for (const double y : {-margin, margin}) images.add(at + Vector2d(x, y));
     }
   }
-  polygon = convex_hull(images);
-  polygon = cut(polygon, 0, -1, 1);
-  polygon = cut(polygon, 0, 1, tile.width + 1);
-  polygon = cut(polygon, 1, -1, 1);
-  polygon = cut(polygon, 1, 1, tile.height + 1);
-  return polygon.size() < 3 ? Polygon() : polygon;
+  Polygon polygon = convex_hull(images);
+  const auto beyond = [&](const Vector2d& at) {
+    return at.minCoeff() < -1 || at.x() > tile.width + 1 || at.y() > tile.height + 1;
+  };
+  if (std::any_of(polygon.begin(), polygon.end(), beyond)) {
+    polygon = cut(polygon, 0, -1, 1);
+    polygon = cut(polygon, 0, 1, tile.width + 1);
+    polygon = cut(polygon, 1, -1, 1);
+    polygon = cut(polygon, 1, 1, tile.height + 1);
+  }
+  if (polygon.size() < 3) return {};
+  return {polygon.begin(), polygon.end()};
 }
 
 }  // namespace tetraglass::project::slices

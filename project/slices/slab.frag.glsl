@@ -14,7 +14,7 @@ flat in vec3 block_low;   // in units of points
 flat in vec3 block_high;
 #endif
 
-#ifdef PRE_CLASSIFIED
+#if defined(PRE_CLASSIFIED) || defined(TABLE_2D) || (defined(MODE_FULL) && defined(LINEAR))
 #include "slab_opacity.glsl"
 #endif
 #ifdef NEEDS_MEDIUM
@@ -28,7 +28,12 @@ flat in vec3 block_high;
 #endif
 
 vec4 light_of(float front, float back, float size) {
-#ifdef TABLE_2D
+#if defined(MODE_FULL) && defined(LINEAR)
+  vec4 medium = medium_at(front);
+  float depth = size * medium.a;
+  float opacity = depth * opacity_of_depth(depth);
+  return vec4(opacity * medium.rgb, opacity);
+#elif defined(TABLE_2D)
   return slab_light(front, back, size);
 #elif defined(MODE_FULL) && defined(NEEDS_MEDIUM)
   return radiance(front, back, size);

@@ -1,8 +1,6 @@
 // What a slab sends towards the eye, from a table over the values at its front and back (lum2004, meissner2002
 // section 2.4) of slabs of a nominal length.
 
-#include "slab_opacity.glsl"
-
 uniform sampler2D table;
 
 vec4 slab_light(float front, float back, float size) {

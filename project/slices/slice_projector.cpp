@@ -61,6 +61,12 @@ bool shows(const Scene& scene, const SlicesPlan& plan, double least, double most
   return true;
 }
 
+double volume(const std::vector<Block>& blocks) {
+  double sum = 0;
+  for (const Block& block : blocks) sum += (block.high - block.low).cast<double>().prod();
+  return sum;
+}
+
 bool same(const Block& a, const Block& b) {
   return a.low == b.low && a.high == b.high;
 }
@@ -215,9 +221,17 @@ std::vector<Brick> SliceProjector::bricks(const GridView& view,
 std::vector<Block> SliceProjector::shown(const Block& voxels,
                                          const std::optional<Eigen::Vector3i>& reach) const {
   if (!plan_.slices.skip_empty || !reach || reach->maxCoeff() > kFarthestReach) return {voxels};
-  return ranges_.shown(voxels, *reach, [&](double least, double most) {
+  std::vector<Block> blocks = ranges_.shown(voxels, *reach, [&](double least, double most) {
     return shows(scene_, plan_.slices, least, most);
   });
+  // The outlines of many blocks cost more than the fragments of a few: together then.
+  constexpr double kMostShown = 0.6;
+  if (blocks.empty() || volume(blocks) <= kMostShown * volume({voxels})) return blocks;
+  Block around = blocks[0];
+  for (const Block& block : blocks) {
+    around = {around.low.cwiseMin(block.low), around.high.cwiseMax(block.high)};
+  }
+  return {around};
 }
 
 void SliceProjector::set_blending() const {
