@@ -194,7 +194,8 @@ class Tracer {
           const double t = piece.position(surface.value);
           const Eigen::Vector3d at =
               voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
-          lit = shade(scene_.lights, lit, scene_.transfer_function.material_at(surface.value), at,
+          lit = shade(scene_.lights, lit, scene_.transfer_function.material_at(surface.value),
+                      scene_.grid->origin + scene_.grid->axes * at,
                       grid_gradient(scene_, scene_.grid->index_at(at)), to_viewer);
         }
         color += transmittance * surface.opacity * lit;

@@ -108,6 +108,23 @@ TEST(GridReference, LinearFieldsAreThoseOfTheCells) {
   }
 }
 
+TEST(GridReference, LightsFallOnSurfacesAsOnThoseOfTheCells) {
+  const mesh::TetMesh mesh =
+      box_mesh([](const Eigen::Vector3d& p) { return 0.3 * p.x() - 0.2 * p.y() + 0.5 * p.z(); });
+  Scene scene = grid_scene(mesh, Mode::iso, constant_medium({1, 1, 1}, 1));
+  scene.isosurfaces = {{0.17, {0.2, 0.9, 0.5}, 1}};
+  scene.shading = Shading::smooth;
+  scene.lights = Lights{
+      {0.5, 0.5, 0.5},
+      {PointLight{{0.9, 0.6, 1.5}, {1, 0.8, 0.2}}, DirectionalLight{{-1, 0, -1}, {0, 0.5, 1}}}};
+  const Image grid = draw(scene);
+  Stats stats;
+  const Image cells = render_reference(scene, stats);
+  for (std::size_t i = 0; i < grid.rgba.size(); ++i) {
+    ASSERT_NEAR(grid.rgba[i], cells.rgba[i], 1e-6) << "value " << i;
+  }
+}
+
 // s = x y z on a ray along the diagonal of a cube is t^3: the light of a jump at 1/8 is that of the
 // half behind it, that of a ramp has its closed form, and the largest value is at the end.
 TEST(GridReference, TrilinearFieldIsACubicAlongRays) {
