@@ -142,13 +142,18 @@ void PowerSorter::find_runs(Entries entries, Frame& frame) const {
 }
 
 std::uint32_t PowerSorter::group_of(KeyedItem entry) const {
-  if (groups_->has_ties()) return item_of(entry);
+  // Most meshes leave no cell out.
+  if (groups_->has_ties() || links_.cells.size() == mesh_.cells.size()) return item_of(entry);
   const auto place = std::lower_bound(links_.cells.begin(), links_.cells.end(), item_of(entry));
   return static_cast<std::uint32_t>(place - links_.cells.begin());
 }
 
 void PowerSorter::write_group(std::uint32_t group, std::size_t place, Frame& frame) {
   std::uint32_t* target = order_.cells.data() + place;
+  if (!groups_->has_ties()) {
+    *target = links_.cells[group];
+    return;
+  }
   if (groups_->write_order(group, frame.view, frame.sides, target)) return;
   const auto cells = groups_->cells(group);
   const std::lock_guard lock(frame.mutex);
@@ -225,16 +230,16 @@ void PowerSorter::write_run(Entries run, std::size_t place, Frame& frame) {
     double lowest = std::numeric_limits<double>::infinity();
     std::size_t cells = 0;
     std::size_t end = begin;
-    tied.clear();
     while (end < groups.size() && (end == begin || groups[end].high >= lowest)) {
       lowest = std::min(lowest, groups[end].low);
-      tied.push_back(groups[end].group);
-      cells += groups_->size(groups[end].group);
+      cells += groups_->has_ties() ? groups_->size(groups[end].group) : 1;
       ++end;
     }
-    if (tied.size() == 1) {
-      write_group(tied.front(), place, frame);
+    if (end == begin + 1) {
+      write_group(groups[begin].group, place, frame);
     } else {
+      tied.clear();
+      for (std::size_t i = begin; i < end; ++i) tied.push_back(groups[i].group);
       write_by_faces(tied, place, frame);
     }
     begin = end;
