@@ -63,28 +63,16 @@ std::vector<double> exact_iso(const TableTask& task, double front, double back) 
   return rgba(color, 1 - transmittance);
 }
 
-double exact_psi(const TableTask& task, std::size_t front, std::size_t back) {
-  // gamma = k / (k + 1) at equal steps: k = gamma / (1 - gamma), infinite at the last sample.
-  const auto k = [&](std::size_t sample) {
-    const double gamma = static_cast<double>(sample) / static_cast<double>(task.n - 1);
-    return gamma / (1 - gamma);
-  };
-  return preint::psi(k(front), k(back));
+// gamma = k / (k + 1): infinite depths at 1.
+double exact_psi(double front_gamma, double back_gamma) {
+  const auto k = [](double gamma) { return gamma / (1 - gamma); };
+  return preint::psi(k(front_gamma), k(back_gamma));
 }
 
-/// The exact entry i: over (front, back), the lengths if there are several, and the two tables of
-/// the weighted kind.
-std::vector<double> exact_entry(const TableTask& task, std::size_t i) {
-  const auto n = static_cast<std::size_t>(task.n);
-  const auto node = [&](std::size_t k) {
-    return preint::table_node(task.low, task.high, task.n, static_cast<int>(k));
-  };
-  const double front = node(i % n);
-  const double back = node(i / n % n);
-  const auto lengths = static_cast<std::size_t>(std::max(task.m, 1));
-  const auto l = static_cast<double>(i / (n * n) % lengths);
-  const double length =
-      task.m == 0 ? task.length : preint::length_at(task.axis, task.length, task.m, l);
+/// What a table holds exactly, `back_weighted` in the second one of the weighted kind. The axes of
+/// psi are gamma.
+std::vector<double> exact_at(const TableTask& task, double front, double back, double length,
+                             bool back_weighted) {
   switch (task.kind) {
     case TableKind::emission:
       return rgba(integrate_emission(task.tf, {front, back, 1}),
@@ -99,14 +87,62 @@ std::vector<double> exact_entry(const TableTask& task, std::size_t i) {
     case TableKind::full3d:
       return exact_full(task, {front, back, length});
     case TableKind::weighted:
-      return exact_weighted(task, {front, back, length}, i / (n * n * lengths) == 1);
+      return exact_weighted(task, {front, back, length}, back_weighted);
     case TableKind::material:
       return exact_material(task, {front, back, length});
     case TableKind::psi:
-      return {exact_psi(task, i % n, i / n)};
+      return {exact_psi(front, back)};
   }
   return {};
 }
+
+/// The exact entry i: over (front, back), the lengths if there are several, and the two tables of
+/// the weighted kind.
+std::vector<double> exact_entry(const TableTask& task, std::size_t i) {
+  const auto n = static_cast<std::size_t>(task.n);
+  const auto node = [&](std::size_t k) {
+    return task.kind == TableKind::psi
+               ? static_cast<double>(k) / static_cast<double>(n - 1)
+               : preint::table_node(task.low, task.high, task.n, static_cast<int>(k));
+  };
+  const auto lengths = static_cast<std::size_t>(std::max(task.m, 1));
+  const auto l = static_cast<double>(i / (n * n) % lengths);
+  const double length =
+      task.m == 0 ? task.length : preint::length_at(task.axis, task.length, task.m, l);
+  return exact_at(task, node(i % n), node(i / n % n), length, i / (n * n * lengths) == 1);
+}
+
+/// One part as a table to look up; of one channel in red.
+class LookupTable {
+ public:
+  LookupTable(const TableTask& task, const BuiltTable& built, std::size_t part)
+      : low_(task.kind == TableKind::psi ? 0 : task.low),
+        high_(task.kind == TableKind::psi ? 1 : task.high),
+        has_lengths_(task.m > 0) {
+    const preint::Entries& from = built.parts[part];
+    preint::Entries rgba(from.size() / built.channels * 4, 0.0F);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      rgba[i / built.channels * 4 + i % built.channels] = from[i];
+    }
+    if (has_lengths_) {
+      cube_ = {task.n, task.m, low_, high_, task.length, std::move(rgba), task.axis};
+    } else {
+      square_ = {task.n, low_, high_, std::move(rgba)};
+    }
+  }
+
+  [[nodiscard]] double value(double t) const { return low_ * (1 - t) + high_ * t; }
+  [[nodiscard]] Eigen::Array4d at(double front, double back, double length) const {
+    return (has_lengths_ ? lookup(cube_, front, back, length) : lookup(square_, front, back)).rgba;
+  }
+
+ private:
+  double low_;
+  double high_;
+  bool has_lengths_;
+  preint::Table2D square_;
+  preint::Table3D cube_;
+};
 
 preint::Entries build_material(const TableTask& t) {
   if (t.m > 0) {
@@ -211,6 +247,30 @@ double largest_error(const TableTask& task, const BuiltTable& table) {
     for (std::size_t c = 0; c < table.channels; ++c) {
       const double value = part[at % table.parts[0].size() + c];
       largest = std::max(largest, std::abs(value - expected[c]));
+    }
+  }
+  return largest;
+}
+
+double largest_lookup_error(const TableTask& task, const BuiltTable& table) {
+  constexpr std::size_t kPlaces = 4096;
+  const auto nearest = [&](double t) { return std::round(t * (task.n - 1)) / (task.n - 1); };
+  double largest = 0;
+  for (std::size_t part = 0; part < table.parts.size(); ++part) {
+    const LookupTable lookups(task, table, part);
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+      const auto [x, y, z] = preint::evenly_spread(i);
+      const double length =
+          task.m == 0 ? task.length
+                      : preint::length_at(task.axis, task.length, task.m, z * (task.m - 1));
+      const std::vector<double> expected =
+          exact_at(task, lookups.value(x), lookups.value(y), length, part == 1);
+      const bool snap = task.kind == TableKind::iso;
+      const Eigen::Array4d found = lookups.at(lookups.value(snap ? nearest(x) : x),
+                                              lookups.value(snap ? nearest(y) : y), length);
+      for (std::size_t c = 0; c < table.channels; ++c) {
+        largest = std::max(largest, std::abs(found[static_cast<Eigen::Index>(c)] - expected[c]));
+      }
     }
   }
   return largest;

@@ -51,4 +51,9 @@ double choose_size(TableTask& task, double max_error);
 /// as many that are evenly spread in a larger one.
 [[nodiscard]] double largest_error(const TableTask& task, const BuiltTable& table);
 
+/// The largest difference of lookups, at 4096 places spread evenly inside the table, from the exact
+/// integrals there: interpolated, but for isosurfaces at the nearest entry. Where the integral
+/// jumps, as at isovalues, it is of the order of the jump.
+[[nodiscard]] double largest_lookup_error(const TableTask& task, const BuiltTable& table);
+
 }  // namespace tetraglass::apps

@@ -181,6 +181,7 @@ void table(const TableArguments& arguments) {
   const double ms = clock.milliseconds();
   const auto entries = static_cast<double>(result.entries());
   const double error = largest_error(task, result);
+  if (!lookup_error) lookup_error = largest_lookup_error(task, result);
   if (!arguments.output.empty()) {
     base::OutputFile output(arguments.output);
     std::vector<float> values;
@@ -192,17 +193,19 @@ void table(const TableArguments& arguments) {
   }
   const std::string method = name_of(task.method);
   if (arguments.json) {
-    nlohmann::ordered_json json = {{"kind", arguments.kind},
-                                   {"method", method},
-                                   {"size", size},
-                                   {"ms", ms},
-                                   {"entries_per_s", entries / ms * 1000},
-                                   {"max_error", error}};
-    if (lookup_error) json["lookup_error"] = *lookup_error;
+    const nlohmann::ordered_json json = {{"kind", arguments.kind},
+                                         {"method", method},
+                                         {"size", size},
+                                         {"ms", ms},
+                                         {"entries_per_s", entries / ms * 1000},
+                                         {"max_error", error},
+                                         {"lookup_error", *lookup_error}};
     fmt::print("{}\n", json.dump());
   } else {
-    fmt::print("{} table of {}, {}: {:.3g} ms, {:.3g} entries/s, largest error {:.3g}\n",
-               arguments.kind, size, method, ms, entries / ms * 1000, error);
+    fmt::print(
+        "{} table of {}, {}: {:.3g} ms, {:.3g} entries/s, largest error {:.3g}, of lookups "
+        "{:.3g}\n",
+        arguments.kind, size, method, ms, entries / ms * 1000, error, *lookup_error);
     if (!arguments.output.empty()) fmt::print("{}\n", arguments.output);
   }
 }

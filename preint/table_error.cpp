@@ -51,20 +51,6 @@ Eigen::Array4d bilinear(const float* slice, std::size_t n, const Position& front
          y * ((1 - x) * entry(0, 1) + x * entry(1, 1));
 }
 
-/// Place i of a sequence that fills the unit cube evenly: multiples of 1/g, 1/g^2, 1/g^3 modulo 1
-/// with g^4 = g + 1 (the R3 sequence, Roberts 2018).
-std::array<double, 3> place(std::size_t i) {
-  constexpr double kG = 1.2207440846057596;
-  std::array<double, 3> result{};
-  double step = 1;
-  for (double& x : result) {
-    step /= kG;
-    const double turns = 0.5 + step * static_cast<double>(i);
-    x = turns - std::floor(turns);
-  }
-  return result;
-}
-
 double difference(const Eigen::Array4d& rgba, const Radiance& exact) {
   return std::max((rgba.head<3>() - exact.color).abs().maxCoeff(),
                   std::abs(rgba[3] - (1 - exact.transmittance)));
@@ -86,7 +72,7 @@ double measure(const Table3D& table, const TransferFunction& tf, const LengthRan
   const double longest = std::min(1.0, coordinate(lengths.longest));
   double worst = 0;
   for (std::size_t i = 0; i < samples; ++i) {
-    const auto [x, y, z] = place(i);
+    const auto [x, y, z] = evenly_spread(i);
     const auto value = [&](double t) {
       const double s = on_sample(t, table.n, snap == Snap::values);
       return table.low * (1 - s) + table.high * s;
@@ -102,6 +88,19 @@ double measure(const Table3D& table, const TransferFunction& tf, const LengthRan
 }
 
 }  // namespace
+
+// Multiples of 1/g, 1/g^2, 1/g^3 modulo 1 with g^4 = g + 1.
+std::array<double, 3> evenly_spread(std::size_t i) {
+  constexpr double kG = 1.2207440846057596;
+  std::array<double, 3> result{};
+  double step = 1;
+  for (double& x : result) {
+    step /= kG;
+    const double turns = 0.5 + step * static_cast<double>(i);
+    x = turns - std::floor(turns);
+  }
+  return result;
+}
 
 Lookup lookup(const Table2D& table, double front, double back) {
   Lookup result;
@@ -132,7 +131,7 @@ double slab_table_error(const Table2D& table, const TransferFunction& tf, double
                         std::size_t samples) {
   double worst = 0;
   for (std::size_t i = 0; i < samples; ++i) {
-    const auto [x, y, unused] = place(i);
+    const auto [x, y, unused] = evenly_spread(i);
     const Segment segment{table.low * (1 - x) + table.high * x,
                           table.low * (1 - y) + table.high * y, length};
     const Lookup found = lookup(table, segment.front, segment.back);

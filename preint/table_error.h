@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -18,6 +19,10 @@ struct Lookup {
 
 /// Trilinear in the values and the coordinate of the length.
 [[nodiscard]] Lookup lookup(const Table3D& table, double front, double back, double length);
+
+/// Place i of a sequence that fills the unit cube evenly (R3, Roberts 2018): where tables are
+/// checked.
+[[nodiscard]] std::array<double, 3> evenly_spread(std::size_t i);
 
 /// Lengths of the segments that a table is looked up for (those of a mesh), 0 <= shortest <=
 /// longest.

@@ -152,6 +152,25 @@ TEST_F(CommandLine, ImportAddsFieldsFromExpressions) {
   expect_error("import " + sphere() + " -o " + copy + " --add-field 'a=unknown+1'", 2, "unknown");
 }
 
+// By the library's measure where it chooses the size: the same for the table of that size.
+TEST_F(CommandLine, TablesTellTheErrorOfLookups) {
+  const auto print = [](const std::string& arguments) {
+    return Json::parse(run_program("table --json --kind " + arguments).out);
+  };
+  for (const std::string kind : {"full2d", "full3d"}) {
+    SCOPED_TRACE(kind);
+    const Json chosen = print(kind + " --max-error 0.02");
+    EXPECT_LE(chosen["lookup_error"].get<double>(), 0.02);
+    Json same = print(kind + " --size " + chosen["size"].get<std::string>());
+    if (kind == "full3d" && same["lookup_error"] != chosen["lookup_error"]) {
+      same = print(kind + " --length-axis logarithmic --size " + chosen["size"].get<std::string>());
+    }
+    EXPECT_DOUBLE_EQ(same["lookup_error"].get<double>(), chosen["lookup_error"].get<double>());
+  }
+  EXPECT_GT(print("psi --size 17")["lookup_error"].get<double>(),
+            1.5 * print("psi --size 65")["lookup_error"].get<double>());
+}
+
 // Every kind and method of the contract, with entries that agree with the exact integral to the
 // rounding of floats.
 TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
@@ -188,6 +207,8 @@ TEST_F(CommandLine, TablesAreBuiltTimedAndChecked) {
       EXPECT_EQ(json["method"], method);
       EXPECT_GT(json["entries_per_s"].get<double>(), 0);
       EXPECT_LT(json["max_error"].get<double>(), 2e-6);
+      EXPECT_GT(json["lookup_error"].get<double>(), 0);
+      EXPECT_LE(json["lookup_error"].get<double>(), 1);  // the jump at an isovalue
       const project::NpyArray table = project::parse_npy(read_text(out), out);
       EXPECT_EQ(table.shape.size(), rank);
     }
