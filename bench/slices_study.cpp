@@ -339,7 +339,7 @@ void print_cells(const project::gl::Context& context, const std::string& plot_fi
     const auto print = [&](const std::string& name, std::size_t cells, const Drawn& drawn,
                            std::size_t bytes) {
       const double rms = compare(drawn.image, exact).rms;
-      fmt::print("| {0} x {0} x {0} | {1} | {2} | {3:.0f} | {4:.1e} | {5:.1f} |\n", n, name, cells,
+      fmt::print("| {0} x {0} x {0} | {1} | {2} | {3:.0f} | {4:.1e} | {5:.2f} |\n", n, name, cells,
                  drawn.ms, rms, double(bytes) / 1e6);
       plot.add(name, n, rms, drawn.ms);
     };
