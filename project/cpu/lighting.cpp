@@ -10,13 +10,6 @@ namespace {
 
 using preint::ControlPoint;
 
-double largest_shininess(const preint::TransferFunction& tf) {
-  double largest = 0;
-  for (const ControlPoint& point : tf.points())
-    largest = std::max(largest, point.material.shininess);
-  return largest;
-}
-
 /// The middle of the values of largest extinction, where these are neighbours.
 double value_of_surface(const preint::TransferFunction& tf) {
   const std::vector<ControlPoint>& points = tf.points();
@@ -58,7 +51,7 @@ Lighting::Lighting(const Scene& scene, const DrawnCells& cells)
   for (std::size_t c = 0; c < 3; ++c) {
     ambient[c] = static_cast<float>(scene.lights->ambient[static_cast<Eigen::Index>(c)]);
   }
-  sources = light_sources(*scene.lights, mesh::bounds(*scene.mesh), largest_shininess(tf));
+  sources = light_sources(*scene.lights, mesh::bounds(*scene.mesh), tf);
 }
 
 std::vector<ViewedLight> Lighting::view(const Frame& frame, const Projection& projection) const {
@@ -66,15 +59,13 @@ std::vector<ViewedLight> Lighting::view(const Frame& frame, const Projection& pr
   const double start = projection.perspective ? projection.middle_depth * projection.radius
                                               : projection.depth_offset;
   for (const LightSource& source : sources) {
-    Eigen::Vector3d place = source.far_away ? Eigen::Vector3d(frame.axes() * source.place)
-                                            : frame.to_camera(source.place);
-    if (!source.far_away) place = (place - Eigen::Vector3d(0, 0, start)) / projection.radius;
+    const LightSource seen = viewed(source, frame, start, projection.radius);
     ViewedLight light;
     light.far_away = source.far_away;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto i = static_cast<Eigen::Index>(c);
-      light.place[c] = static_cast<float>(std::clamp(place[i], -1e15, 1e15));
-      light.color[c] = static_cast<float>(source.color[i]);
+      light.place[c] = static_cast<float>(seen.place[i]);
+      light.color[c] = static_cast<float>(seen.color[i]);
     }
     result.push_back(light);
   }

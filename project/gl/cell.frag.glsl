@@ -101,22 +101,36 @@ float intensity(Segment seg, float t) {
 #endif
 }
 
-// The color of a surface (RGB associated to A) met at the part t of the segment, lit.
-vec3 lit(vec4 color, Segment seg, float t, vec2 position) {
 #if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
+#ifdef TABLE_2D
+// The table does not tell which surface it was.
+uniform vec4 material;
+Material surface_material(int i) { return Material(material.x, material.y, material.z, material.w); }
+#endif
+
+vec3 gradient_at(vec2 position, float depth) {
+#ifdef SHADING_FLAT
+  return cell_gradient;
+#else
+  return interpolated_gradient(position, depth);
+#endif
+}
+#endif
+
+// The color of surface i (RGB associated to A) met at the part t of the segment, lit.
+vec3 lit(int i, vec4 color, Segment seg, float t, vec2 position) {
+#if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
+  float depth = mix(seg.entry, seg.exit, t);  // z - focus
+  vec2 ray = (position - picture_middle) * vec2(pixel_pitch, -pixel_pitch);
 #ifdef PARALLEL
   vec3 to_viewer = vec3(0, 0, -1);
+  vec3 at = vec3(ray, depth);
 #else
-  vec2 ray = (position - picture_middle) * pixel_pitch;
-  vec3 to_viewer = -normalize(vec3(ray.x, -ray.y, 1));
+  vec3 to_viewer = -normalize(vec3(ray, 1));
+  vec3 at = vec3(ray * (depth + 1 / focus_inverse), depth);
 #endif
-#ifdef SHADING_FLAT
-  vec3 gradient = cell_gradient;
-#else
-  vec3 gradient = interpolated_gradient(position, mix(seg.entry, seg.exit, t));
-#endif
-  Light light = headlight(gradient, to_viewer);
-  return intensity(seg, t) * (light.of_color * color.rgb + light.added * color.a);
+  return intensity(seg, t) * shade(color.rgb, color.a, surface_material(i), gradient_at(position, depth), at,
+                                   to_viewer);
 #else
   return intensity(seg, t) * color.rgb;
 #endif
@@ -134,7 +148,7 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
   // The table tells color and opacity but not where: the middle stands for that. Segments of different cells
   // do not overlap, so any of its points will do to tell which is nearer.
   vec4 met = looked_up(seg);
-  color = vec4(lit(met, seg, 0.5, position), met.a);
+  color = vec4(lit(0, met, seg, 0.5, position), met.a);
 #ifdef OPAQUE
   write_depth(seg, 0.5);
 #endif
@@ -150,7 +164,7 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
     float t = (surface_value(i) - seg.front) / (seg.back - seg.front);
     float opacity = surface_opacity(i);
     vec4 surface = vec4(opacity * surface_color(i), opacity);
-    color += (1 - color.a) * vec4(lit(surface, seg, t, position), opacity);
+    color += (1 - color.a) * vec4(lit(i, surface, seg, t, position), opacity);
 #ifdef OPAQUE
     write_depth(seg, t);
     break;

@@ -73,6 +73,25 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
     surfaces_.emplace(context, Texel::rgba32f);
     surfaces_->upload(surface_texels(scene, normalization_), "isosurfaces");
   }
+  if (scene.lights) {
+    sources_ = light_sources(*scene.lights, mesh::bounds(*scene.mesh), scene.transfer_function);
+    lights_.emplace(context, Texel::rgba32f);
+  }
+}
+
+void CellProjector::place_lights(const Frame& frame, const ViewUniforms& view) {
+  if (!lights_) return;
+  const double radius = normalization_.radius;
+  std::vector<Eigen::Vector4f> texels;
+  for (const LightSource& source : sources_) {
+    const LightSource seen = viewed(source, frame, view.focus() * radius, radius);
+    texels.emplace_back();
+    texels.back() << seen.place.cast<float>(), seen.far_away ? 0.0F : 1.0F;
+    texels.emplace_back();
+    texels.back() << seen.color.cast<float>().matrix(), 0.0F;
+  }
+  lights_->upload(texels, "lights");
+  lights_->bind(Units::kLights);
 }
 
 void CellProjector::make_tables(Stats& stats) {
@@ -118,6 +137,14 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   program.set("table_length", table_length_);
   program.set("surfaces", Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
+  program.set("lights", Units::kLights);
+  program.set("light_count", static_cast<int>(sources_.size()));
+  if (scene_.lights) {
+    program.set("ambient_light", Eigen::Vector3f(scene_.lights->ambient.cast<float>().matrix()));
+  }
+  if (!scene_.isosurfaces.empty()) {
+    program.set("material", material_texel(scene_, scene_.isosurfaces[0].value));
+  }
   return program;
 }
 
@@ -227,6 +254,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     const Target target(context_, target_texel(scene_, plan_.gl.target),
                         draws_opaque_surfaces(scene_), width, height);
     bind();
+    place_lights(frame, view);
     if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
       lists_.emplace(context_, width, height, most_fragments_);
     }

@@ -12,6 +12,7 @@
 #include "project/gl/mesh_buffers.h"
 #include "project/gl/view_uniforms.h"
 #include "project/image.h"
+#include "project/light/light_sources.h"
 #include "project/plan.h"
 #include "project/stats.h"
 #include "sort/cell_sorter.h"
@@ -46,6 +47,7 @@ class CellProjector {
   bool order_cells(const Frame& frame, Stats& stats);
   void bind() const;
   void set_blending() const;
+  void place_lights(const Frame& frame, const ViewUniforms& view);
   void draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile, const Target& target,
                  Image& image, Stats& stats);
   void draw_fragments(bool parallel, const ViewUniforms& view, const Tile& tile, Stats& stats);
@@ -60,6 +62,8 @@ class CellProjector {
   std::unique_ptr<CellLayout> cells_;
   std::optional<MediumBuffers> medium_;
   std::optional<TextureBuffer> surfaces_;
+  std::optional<TextureBuffer> lights_;  // two texels each, see shade.glsl
+  std::vector<LightSource> sources_;
   std::optional<Table> table_;
   float table_length_ = 1;  // in normalized units
   FragmentCounter counter_;

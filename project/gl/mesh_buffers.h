@@ -41,6 +41,7 @@ struct Units {
   static constexpr int kTable = 7;
   static constexpr int kSurfaces = 8;
   static constexpr int kMinima = 9;
+  static constexpr int kLights = 10;
 };
 
 }  // namespace tetraglass::project::gl

@@ -1,24 +1,67 @@
-// Phong shading by a headlight (meissner2002 Eq. 1 with l = v); project/light/phong.h says the same:
-// k_a c + k_d c |n.v| + k_s max(0, r.v)^32, r.v = 2 (n.v)^2 - 1 for the light at the viewer.
-// k_a 0.1, k_d 0.7, k_s 0.2. Unshaded where the gradient is 0.
+// Phong shading (meissner2002 Eq. 1); project/light/phong.h says the same. With LIGHTS by these, else by
+// a headlight: white light at the viewer, and white ambient light. Unshaded where the gradient is 0.
 
-struct Light {
-  float of_color;
-  float added;
+struct Material {
+  float ambient;
+  float diffuse;
+  float specular;
+  float shininess;
 };
 
-// to_viewer: unit length.
-Light headlight(vec3 gradient, vec3 to_viewer) {
+#ifdef LIGHTS
+// Of each light (place, 1), or (unit vector towards it, 0) where it is far away; then its color. In the
+// camera's axes, in units of half the mesh's diagonal, from the camera's axis at the depth of the focus.
+uniform samplerBuffer lights;
+uniform int light_count;
+uniform vec3 ambient_light;
+#endif
+
+// base^exponent for base from 0 to 1. The whole part by squaring: pow() goes through logarithms, of which
+// software renderers know few digits.
+float power(float base, float exponent) {
+  if (!(base > 0)) return 0;
+  int whole = int(min(exponent, 1048576.0));
+  float result = exponent > whole ? pow(base, exponent - whole) : 1;
+  for (float factor = base; whole > 0; whole >>= 1) {
+    if ((whole & 1) != 0) result *= factor;
+    factor *= factor;
+  }
+  return result;
+}
+
+// Of a color times its opacity. `at`: where, in the coordinates of the lights. `to_viewer`: unit length.
+vec3 shade(vec3 color, float opacity, Material material, vec3 gradient, vec3 at, vec3 to_viewer) {
   // Scaled first: the squares of small components would vanish.
   float largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
-  if (!(largest > 0)) return Light(1, 0);
-  float cosine = abs(dot(normalize(gradient / largest), to_viewer));
-  float reflected = max(0.0, 2 * cosine * cosine - 1);
-  // By squaring: pow() goes through logarithms, of which software renderers know few digits.
-  float power = reflected * reflected;
-  power *= power;
-  power *= power;
-  power *= power;
-  power *= power;
-  return Light(0.1 + 0.7 * cosine, 0.2 * power);
+  if (!(largest > 0)) return color;
+  vec3 normal = normalize(gradient / largest);
+  float facing = dot(normal, to_viewer);
+#ifdef LIGHTS
+  if (facing < 0) {
+    normal = -normal;
+    facing = -facing;
+  }
+  vec3 diffuse = vec3(0);
+  vec3 specular = vec3(0);
+  for (int i = 0; i < light_count; ++i) {
+    vec4 place = texelFetch(lights, 2 * i);
+    vec3 light = texelFetch(lights, 2 * i + 1).rgb;
+    vec3 to_light = place.xyz;
+    if (place.w > 0) {
+      to_light -= at;
+      to_light /= max(length(to_light), 1e-15);
+    }
+    float cosine = dot(normal, to_light);
+    diffuse += max(cosine, 0.0) * light;
+    float reflected = 2 * cosine * facing - dot(to_light, to_viewer);
+    specular += power(min(reflected, 1.0), material.shininess) * light;
+  }
+  vec3 ambient = material.ambient * ambient_light;
+#else
+  facing = abs(facing);
+  float diffuse = facing;
+  float specular = power(2 * facing * facing - 1, material.shininess);
+  float ambient = material.ambient;
+#endif
+  return color * (ambient + material.diffuse * diffuse) + opacity * material.specular * specular;
 }

@@ -4,6 +4,11 @@
 
 namespace tetraglass::project::gl {
 
+Eigen::Vector4f material_texel(const Scene& scene, double value) {
+  const preint::Material m = scene.transfer_function.material_at(value);
+  return Eigen::Vector4d(m.ambient, m.diffuse, m.specular, m.shininess).cast<float>();
+}
+
 std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
                                             const Normalization& normalization) {
   std::vector<preint::Isosurface> surfaces = scene.isosurfaces;
@@ -15,6 +20,7 @@ std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
     texels.emplace_back(normalization.value(surface.value), static_cast<float>(surface.opacity),
                         0.0F, 0.0F);
     texels.emplace_back(color.x(), color.y(), color.z(), 0.0F);
+    texels.push_back(material_texel(scene, surface.value));
   }
   return texels;
 }

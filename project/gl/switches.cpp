@@ -64,6 +64,7 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
   if (scene.mode == Mode::iso) {
     if (draws_opaque_surfaces(scene)) names.emplace_back("OPAQUE");
     if (scene.depth_cue) names.emplace_back("DEPTH_CUE");
+    if (scene.lights) names.emplace_back("LIGHTS");
     if (scene.shading == Shading::flat) names.emplace_back("SHADING_FLAT");
     if (scene.shading == Shading::smooth) names.emplace_back("SHADING_SMOOTH");
   }

@@ -62,8 +62,24 @@ class Collector {
 
 }  // namespace
 
+LightSource viewed(const LightSource& source, const Frame& frame, double depth, double unit) {
+  LightSource result = source;
+  if (source.far_away) {
+    result.place = frame.axes() * source.place;
+  } else {
+    result.place = (frame.to_camera(source.place) - Eigen::Vector3d(0, 0, depth)) / unit;
+    // So far off it is the direction that counts, and floats hold its square.
+    constexpr double kFar = 1e15;
+    result.place = result.place.cwiseMax(-kFar).cwiseMin(kFar);
+  }
+  return result;
+}
+
 std::vector<LightSource> light_sources(const Lights& lights, const Eigen::AlignedBox3d& scene,
-                                       double shininess) {
+                                       const preint::TransferFunction& tf) {
+  double shininess = 0;
+  for (const preint::ControlPoint& point : tf.points())
+    shininess = std::max(shininess, point.material.shininess);
   Collector collector(scene, shininess);
   for (const auto& light : lights.lights) std::visit(collector, light);
   return collector.sources;

@@ -1,5 +1,7 @@
 #include "project/light/plan_light.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
@@ -30,6 +32,21 @@ void check_scene(const Scene& scene) {
   }
 }
 
+/// A table of isosurfaces does not tell which surface was met.
+void check_materials(const Scene& scene) {
+  const auto coefficients = [&](const preint::Isosurface& surface) {
+    const preint::Material m = scene.transfer_function.material_at(surface.value);
+    return std::array{m.ambient, m.diffuse, m.specular, m.shininess};
+  };
+  for (const preint::Isosurface& surface : scene.isosurfaces) {
+    if (coefficients(surface) != coefficients(scene.isosurfaces[0])) {
+      throw base::UsageError(
+          "--integrator table2d has one material for all isosurfaces, and the transfer function "
+          "gives them several: use --integrator exact");
+    }
+  }
+}
+
 void check_projector(const Scene& scene, Projector projector) {
   if (projector == Projector::cpu || projector == Projector::reference) return;
   const std::string name = "--projector " + to_string(projector);
@@ -39,7 +56,7 @@ void check_projector(const Scene& scene, Projector projector) {
   if (scene.modulation) {
     throw base::UsageError(name + " has no --modulate; use --projector cpu");
   }
-  if (scene.lights && projector != Projector::grid_reference) {
+  if (scene.lights && projector == Projector::slices) {
     throw base::UsageError(name + " has a headlight only; use --projector cpu for --lights");
   }
 }
@@ -49,6 +66,8 @@ void check_projector(const Scene& scene, Projector projector) {
 void plan_light(const Scene& scene, Plan& plan) {
   check_scene(scene);
   check_projector(scene, plan.projector);
+  if (scene.shading != Shading::none && plan.integrator == Integrator::table2d)
+    check_materials(scene);
   plan.gradients = scene.shading != Shading::none;
   if (!plan.gradients) {
     plan.reasons.emplace_back("shading: none, no gradients stored");

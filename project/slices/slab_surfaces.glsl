@@ -18,8 +18,8 @@ bool surfaces_met(float front, float back, vec3 enter, vec3 leave, vec3 to_viewe
     vec3 lit = opacity * surface_color(i);
 #ifdef SHADING_SMOOTH
     float part = clamp((surface_value(i) - front) / (back - front), 0.0, 1.0);
-    Light light = headlight(gradient_at(mix(enter, leave, part)), to_viewer);
-    lit = light.of_color * lit + light.added * opacity;
+    vec3 gradient = gradient_at(mix(enter, leave, part));
+    lit = shade(lit, opacity, surface_material(i), gradient, vec3(0), to_viewer);
 #endif
     color += (1 - color.a) * vec4(lit, opacity);
   }

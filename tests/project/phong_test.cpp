@@ -116,7 +116,9 @@ TEST(LightSources, RectanglesArePointsToAThousandth) {
   lights.lights.emplace_back(DirectionalLight{Vector3d(0, 3, 0), Color::Ones()});
   for (const double shininess : {1.0, 32.0}) {
     Lights points;
-    const std::vector<LightSource> sources = light_sources(lights, box, shininess);
+    const std::vector<LightSource> sources = light_sources(
+        lights, box,
+        preint::TransferFunction({{0, Color::Ones(), 1, Material{0.1, 0.7, 0.2, shininess}}}));
     ASSERT_GE(sources.size(), 17U);
     double sum = 0;
     for (const LightSource& source : sources) {
