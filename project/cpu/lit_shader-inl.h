@@ -101,6 +101,19 @@ class LitMediumShader : public MediumShader {
     return result;
   }
 
+  /// Adds a part under the light at its front and at its back; the lit color is linear in between.
+  HWY_INLINE void add_part(const MediumInterval& interval, const IntervalPart& part,
+                           const IlluminationLanes& front, const IlluminationLanes& back,
+                           Lanes in_front, Sums<3>& sums) const {
+    const auto lit = [&](const IlluminationLanes& light, Float position) HWY_ATTR {
+      const Vector3 unlit = {color(interval, 0, position), color(interval, 1, position),
+                             color(interval, 2, position)};
+      return lighting_.shade(light, unlit, material(interval, position));
+    };
+    const SegmentLight<Float> light = light_of(interval, part);
+    sums.add(gather(light, lit(front, part.front), lit(back, part.back)), light.opacity, in_front);
+  }
+
   /// Of the material at scaled values of the cell in work.
   [[nodiscard]] HWY_INLINE Float shininess(Float value) const {
     Float result = set(0);
@@ -127,19 +140,19 @@ class LitMediumShader : public MediumShader {
   OrderedBlocks& blocks_;
 };
 
-/// Light along a segment by what it is at a few of its points.
+/// Light along a segment by what it is at both ends and, of three nodes, in the middle.
 template <std::size_t kNodes>
 class LightAlongSegment {
  public:
   /// `light(t)`: an IlluminationLanes.
   template <class F>
-  explicit LightAlongSegment(const F& light) {
+  HWY_INLINE void find(const F& light) {
     for (std::size_t i = 0; i < kNodes; ++i) {
-      nodes_[i] = light(static_cast<float>(i) / static_cast<float>(kNodes - 1));
+      nodes_[i] = light(set(static_cast<float>(i) / static_cast<float>(kNodes - 1)));
     }
   }
 
-  /// Linear through both ends, quadratic through these and the middle.
+  /// Linear through two nodes, quadratic through three.
   [[nodiscard]] HWY_INLINE IlluminationLanes at(Float t) const {
     if constexpr (kNodes == 2) return mix(nodes_[0], nodes_[1], t);
     const Float s = hn::Sub(set(1), t);
@@ -166,12 +179,9 @@ class LightAlongSegment {
   std::array<IlluminationLanes, kNodes> nodes_;
 };
 
-/// Light found at the ends of each segment and linear in between (kNodes = 2; lum2004,
-/// "Interpolated Pre-Integrated Lighting"), or at the ends and in the middle and quadratic in
-/// between (kNodes = 3). The lit color is taken where the linear parts of the medium end (and, of
-/// three nodes, in their middle), and is linear in between.
-template <std::size_t kNodes>
-class LitPartsShader : public LitMediumShader {
+/// Lights each linear part of the medium on its own: short ones, of shells, by the normal in their
+/// middle; the others by the light along their segment.
+class SmoothShader : public LitMediumShader {
  public:
   using LitMediumShader::LitMediumShader;
 
@@ -180,53 +190,73 @@ class LitPartsShader : public LitMediumShader {
     const CellLighting::Rays rays = lighting_.rays(block);
     const Vector3 front = lighting_.gradient(rays, s.near);
     const Vector3 back = lighting_.gradient(rays, s.far);
-    const LightAlongSegment<kNodes> lights([&](float place) HWY_ATTR {
-      const Float t = set(place);
+    const auto light_at = [&](Float t) HWY_ATTR {
+      return lighting_.illuminate(rays, mix(s.near, s.far, t), mix(front, back, t),
+                                  shininess(mix(s.front, s.back, t)));
+    };
+    LightAlongSegment<3> lights;
+    bool are_lights_found = false;
+    Sums<3> sums;
+    walk(s, covered,
+         [&](const MediumInterval& interval, const IntervalPart& part, Lanes in_front) HWY_ATTR {
+           const Lanes seen = hn::And(covered, hn::Lt(set(0), part.length));
+           const Float share = hn::IfThenElseZero(seen, hn::Sub(part.end, part.start));
+           if (hn::AllTrue(FloatTag(), hn::Lt(share, set(kShort)))) {
+             const Float middle = mix(part.start, part.end, set(0.5F));
+             const IlluminationLanes light = light_at(middle);
+             add_part(interval, part, light, light, in_front, sums);
+             return;
+           }
+           if (!are_lights_found) lights.find(light_at);
+           are_lights_found = true;
+           // By halves: what is linear in between is the lit color.
+           const auto light_of_part = [&](float t) HWY_ATTR {
+             return lights.at(mix(part.start, part.end, set(t)));
+           };
+           const IlluminationLanes middle = light_of_part(0.5F);
+           const Lanes behind = hn::Lt(set(1), set(0));
+           Sums<3> halves;
+           add_part(interval, share_of(part, 0, 0.5F), light_of_part(0), middle, behind, halves);
+           add_part(interval, share_of(part, 0.5F, 1), middle, light_of_part(1), behind, halves);
+           sums.add(halves.of, halves.opacity, in_front);
+         });
+    insert(block, covered, s, sums.of, sums.opacity);
+  }
+
+ private:
+  /// Of the segment: the light at three places of a segment does for longer parts.
+  static constexpr float kShort = 0.25F;
+
+  /// From one place of a part to another.
+  static HWY_INLINE IntervalPart share_of(const IntervalPart& part, float from, float to) {
+    return {mix(part.front, part.back, set(from)), mix(part.front, part.back, set(to)),
+            hn::Mul(part.length, set(to - from)), mix(part.start, part.end, set(from)),
+            mix(part.start, part.end, set(to))};
+  }
+};
+
+/// Light found at the ends of each segment and linear in between (lum2004, "Interpolated
+/// Pre-Integrated Lighting").
+class InterpolatedShader : public LitMediumShader {
+ public:
+  using LitMediumShader::LitMediumShader;
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    const CellLighting::Rays rays = lighting_.rays(block);
+    const Vector3 front = lighting_.gradient(rays, s.near);
+    const Vector3 back = lighting_.gradient(rays, s.far);
+    LightAlongSegment<2> lights;
+    lights.find([&](Float t) HWY_ATTR {
       return lighting_.illuminate(rays, mix(s.near, s.far, t), mix(front, back, t),
                                   shininess(mix(s.front, s.back, t)));
     });
     Sums<3> sums;
     walk(s, covered,
          [&](const MediumInterval& interval, const IntervalPart& part, Lanes in_front) HWY_ATTR {
-           const Part lit{interval, part, lights};
-           if constexpr (kNodes == 2) {
-             add_part(lit, 0, 1, in_front, sums);
-           } else {
-             // The nearer half first, as the parts themselves come.
-             Sums<3> halves;
-             add_part(lit, 0, 0.5F, hn::Lt(set(1), set(0)), halves);
-             add_part(lit, 0.5F, 1, hn::Lt(set(1), set(0)), halves);
-             sums.add(halves.of, halves.opacity, in_front);
-           }
+           add_part(interval, part, lights.at(part.start), lights.at(part.end), in_front, sums);
          });
     insert(block, covered, s, sums.of, sums.opacity);
-  }
-
- private:
-  struct Part {
-    const MediumInterval& interval;
-    const IntervalPart& part;
-    const LightAlongSegment<kNodes>& lights;
-  };
-
-  /// From one share of the part to another.
-  HWY_INLINE void add_part(const Part& lit, float from, float to, Lanes in_front,
-                           Sums<3>& sums) const {
-    const IntervalPart& whole = lit.part;
-    const IntervalPart part = {
-        mix(whole.front, whole.back, set(from)), mix(whole.front, whole.back, set(to)),
-        hn::Mul(whole.length, set(to - from)), mix(whole.start, whole.end, set(from)),
-        mix(whole.start, whole.end, set(to))};
-    const SegmentLight<Float> light = light_of(lit.interval, part);
-    sums.add(
-        gather(light, color_at(lit, part.front, part.start), color_at(lit, part.back, part.end)),
-        light.opacity, in_front);
-  }
-
-  [[nodiscard]] HWY_INLINE Vector3 color_at(const Part& lit, Float position, Float t) const {
-    const Vector3 unlit = {color(lit.interval, 0, position), color(lit.interval, 1, position),
-                           color(lit.interval, 2, position)};
-    return lighting_.shade(lit.lights.at(t), unlit, material(lit.interval, position));
   }
 };
 

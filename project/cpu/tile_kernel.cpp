@@ -196,13 +196,13 @@ TileStats blend_medium(const Picture& picture, int x, int y, std::span<const std
     case Shading::surface:
       return blend_tile<LitOnceShader<Shading::surface>>(picture, x, y, cells, buffers);
     case Shading::interpolated:
-      return blend_tile<LitPartsShader<2>>(picture, x, y, cells, buffers);
+      return blend_tile<InterpolatedShader>(picture, x, y, cells, buffers);
     case Shading::none:
     case Shading::flat:
     case Shading::smooth:
       break;
   }
-  return blend_tile<LitPartsShader<3>>(picture, x, y, cells, buffers);
+  return blend_tile<SmoothShader>(picture, x, y, cells, buffers);
 }
 
 TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
