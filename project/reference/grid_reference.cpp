@@ -185,9 +185,12 @@ class Tracer {
     const Eigen::Vector3d to_viewer = -(frame().axes().transpose() * ray).normalized();
     Color color = Color::Zero();
     double transmittance = 1;
+    // Pieces follow each other: each goes on from the value at which the last one ended, so that
+    // none of the crossings falls between their roundings.
+    double front = pieces.front().value(0);
     for (const MonotonePiece& piece : pieces) {
-      for (const std::size_t i :
-           preint::crossed(scene_.isosurfaces, piece.value(0), piece.value(1))) {
+      const double back = piece.value(1);
+      for (const std::size_t i : preint::crossed(scene_.isosurfaces, front, back)) {
         const preint::Isosurface& surface = scene_.isosurfaces[i];
         Color lit = surface.color;
         if (scene_.shading != Shading::none) {
@@ -201,6 +204,7 @@ class Tracer {
         color += transmittance * surface.opacity * lit;
         transmittance *= 1 - surface.opacity;
       }
+      front = back;
     }
     return rgba(color, 1 - transmittance);
   }

@@ -22,7 +22,10 @@ Vector4d restricted(const Vector4d& c, double from, double to) {
 }
 
 /// Where the cubic turns within (0, 1), ascending; the count first.
-std::pair<int, std::array<double, 2>> turns(const Vector4d& c) {
+std::pair<int, std::array<double, 2>> turns(const Vector4d& cubic) {
+  // Scaled: squares of very large or small coefficients would not be numbers of use.
+  const double largest = cubic.tail<3>().cwiseAbs().maxCoeff();
+  const Vector4d c = largest > 0 ? Vector4d(cubic / largest) : cubic;
   std::array<double, 2> roots{};
   int count = 0;
   const auto add = [&](double t) {
@@ -124,6 +127,11 @@ void RayVoxels::add_voxel(const Vector3d& from, const Vector3d& to, double entry
     a[axis] = std::clamp((from[axis] - grid.coordinates[k][low[k]]) / width, 0.0, 1.0);
     b[axis] = std::clamp((to[axis] - grid.coordinates[k][low[k]]) / width, 0.0, 1.0) - a[axis];
   }
+  // Relative to one of the corners, so that what is constant stays so to the last bit.
+  const auto value_at = [&](const std::array<std::size_t, 3>& point) {
+    return scene_.field.values[(point[2] * grid.size(1) + point[1]) * grid.size(0) + point[0]];
+  };
+  const double base = value_at(low);
   Vector4d cubic = Vector4d::Zero();
   for (std::size_t corner = 0; corner < 8; ++corner) {
     Vector4d weight(1, 0, 0, 0);
@@ -136,8 +144,9 @@ void RayVoxels::add_voxel(const Vector3d& from, const Vector3d& to, double entry
       const double c1 = up ? b[axis] : -b[axis];
       weight = c0 * weight + c1 * Vector4d(0, weight[0], weight[1], weight[2]);
     }
-    cubic += weight * scene_.field.values[(at[2] * grid.size(1) + at[1]) * grid.size(0) + at[0]];
+    cubic += weight * (value_at(at) - base);
   }
+  cubic[0] += base;
   const auto [count, roots] = turns(cubic);
   double begin = 0;
   for (int i = 0; i <= count; ++i) {

@@ -89,7 +89,11 @@ Polygon cut(const Polygon& polygon, int axis, double sign, double limit) {
     const double over_a = sign * a[axis] - limit;
     const double over_b = sign * b[axis] - limit;
     if (over_a <= 0) result.add(a);
-    if ((over_a <= 0) != (over_b <= 0)) result.add(a + over_a / (over_a - over_b) * (b - a));
+    if ((over_a <= 0) != (over_b <= 0)) {
+      Vector2d point = a + over_a / (over_a - over_b) * (b - a);
+      point[axis] = sign * limit;  // however far the ends are off
+      result.add(point);
+    }
   }
   return result;
 }

@@ -199,6 +199,56 @@ TEST(GridReference, LightIsThatOfVeryManySamples) {
   }
 }
 
+// Units do not matter, be they as large or small as numbers are.
+TEST(GridReference, PicturesDoNotDependOnTheUnitsOfValues) {
+  const auto wave = [](const Eigen::Vector3d& p) {
+    return std::sin(9 * p.x()) * std::cos(8 * p.y()) * std::sin(3 * p.z());
+  };
+  const auto picture = [&](double unit, Mode mode) {
+    const mesh::TetMesh mesh = box_mesh([&](const Eigen::Vector3d& p) { return unit * wave(p); });
+    Scene scene =
+        grid_scene(mesh, mode,
+                   preint::TransferFunction(
+                       {{-unit, {1, 0, 0}, 0}, {-0.1 * unit, {0, 1, 0}, 2}, {unit, {1, 1, 1}, 1}}));
+    scene.isosurfaces = {{0.2 * unit, {1, 0.5, 0.2}, 0.5}};
+    return draw(scene);
+  };
+  for (const Mode mode : {Mode::full, Mode::mip, Mode::iso}) {
+    const Image expected = picture(1, mode);
+    for (const double unit : {0x1p900, 0x1p-900}) {
+      const Image image = picture(unit, mode);
+      for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        ASSERT_NEAR(image.rgba[i], expected.rgba[i], 1e-6) << unit << " value " << i;
+      }
+    }
+  }
+}
+
+TEST(GridReference, WhatIsConstantCrossesNoSurface) {
+  const mesh::TetMesh mesh = box_mesh([](const auto&) { return 0.3; });
+  Scene scene = grid_scene(mesh, Mode::iso, constant_medium({1, 1, 1}, 1));
+  scene.isosurfaces = {{0.3, {1, 1, 1}, 1}};
+  const Image image = draw(scene);
+  for (const float value : image.rgba) ASSERT_EQ(value, 0);
+}
+
+// Rays through points whose value is the isovalue: one crossing, however the voxels round.
+TEST(GridReference, RaysThroughPointsOfTheSurfaceCrossItOnce) {
+  const mesh::TetMesh mesh = tests::box({-1, -1, -1}, {1, 1, 1}, 6, 6, 6,
+                                        [](const auto& p) { return 0.1 * p.x() + 0.7 * p.z(); });
+  Scene scene = grid_scene(mesh, Mode::iso, constant_medium({1, 1, 1}, 1), 6);
+  scene.camera = down_z(2, {1.0 / 6, 1.0 / 6});  // pixels look along the edges of voxels
+  scene.isosurfaces = {{0, {1, 1, 1}, 0.5}};
+  const Image image = draw(scene);
+  int seen = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] == 0) continue;  // in the outer faces
+    ++seen;
+    EXPECT_EQ(image.rgba[i], 0.5F);
+  }
+  EXPECT_GE(seen, 25);
+}
+
 TEST(GridReference, SinglePixelsAreThoseOfThePicture) {
   const mesh::TetMesh mesh = box_mesh([](const Eigen::Vector3d& p) { return p.norm(); });
   const Scene scene = grid_scene(mesh, Mode::full,

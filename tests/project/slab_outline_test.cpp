@@ -98,6 +98,23 @@ TEST(SlabOutline, NothingIsSeenBehindTheEyeOrBesideTheTile) {
   EXPECT_TRUE(outline(parallel, parallel.corners({}), {0, 1e9}, {500, 0, 64, 64}, 0.1).empty());
 }
 
+// However near one looks: the grid is far larger than the picture.
+TEST(SlabOutline, CoversATileWithinTheGrid) {
+  Seen seen;
+  for (const double height : {1e-3, 1e-10, 1e-18}) {
+    Camera camera = seen.scene.camera;
+    camera.parallel = true;
+    camera.ortho_height = height;
+    const GridView view = seen.view(camera);
+    const std::vector<Vector2d> polygon =
+        outline(view, view.corners({}), {-1e9, 1e9}, {0, 0, 64, 64}, 0.01);
+    for (const Vector2d& corner :
+         {Vector2d(0, 0), Vector2d(64, 0), Vector2d(64, 64), Vector2d(0, 64)}) {
+      EXPECT_TRUE(!polygon.empty() && contains(polygon, corner)) << height;
+    }
+  }
+}
+
 TEST(Slabs, FollowEachOtherFromFarToNear) {
   Seen seen;
   for (const Camera& camera : cameras(seen.scene.camera)) {
