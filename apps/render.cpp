@@ -97,9 +97,11 @@ void render(const RenderArguments& arguments) {
       arguments.verify.empty() ? 0 : parse_count(arguments.verify, "--verify", 1);
   check_outputs(arguments);
 
-  const mesh::Import imported = import_and_tell(arguments.input, arguments.import);
+  mesh::ImportOptions options = arguments.import;
+  options.grid_only = draws_grid(arguments);
+  const mesh::Import imported = import_and_tell(arguments.input, options);
   const project::Scene scene = make_scene(arguments, imported.mesh);
-  if (scene.drawable.degenerate + scene.drawable.nan > 0) {
+  if (!scene.grid && scene.drawable.degenerate + scene.drawable.nan > 0) {
     warn(
         fmt::format("{} cells without volume and {} with values or coordinates that are not finite "
                     "are not drawn",

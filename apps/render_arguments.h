@@ -56,6 +56,9 @@ struct RenderArguments : CameraArguments {
   mesh::ImportOptions import;
 };
 
+/// Whether the trilinear field of a grid is drawn, not cells.
+[[nodiscard]] bool draws_grid(const RenderArguments& arguments);
+
 /// The scene that the arguments ask for, of a mesh that outlives it. Throws UsageError for values
 /// that cannot be, InputError and ReadError where the mesh or the transfer function's file lack
 /// what is needed; warns on stderr of what will not be seen.

@@ -137,11 +137,6 @@ std::vector<project::ClipPlane> make_clip_planes(const RenderArguments& argument
   return planes;
 }
 
-/// Whether the trilinear field of a grid is drawn, not cells.
-bool draws_grid(const RenderArguments& arguments) {
-  return arguments.projector == "grid-reference" || arguments.projector == "slices";
-}
-
 void refuse_iso_options(const RenderArguments& arguments) {
   if (!arguments.isovalues.empty() || !arguments.iso_colors.empty() ||
       !arguments.iso_opacity.empty()) {
@@ -227,6 +222,10 @@ project::GlRequest make_gl_request(const RenderArguments& arguments) {
 
 }  // namespace
 
+bool draws_grid(const RenderArguments& arguments) {
+  return arguments.projector == "grid-reference" || arguments.projector == "slices";
+}
+
 project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
   project::Scene scene;
   scene.mesh = &mesh;
@@ -244,8 +243,13 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
       arguments.mip_of, "--mip-of",
       {{"field", project::MipOf::field}, {"transfer", project::MipOf::transfer}});
   scene.field = mesh::select_scalar(mesh, arguments.field);
-  scene.drawable = mesh::find_drawable(mesh, scene.field);
-  if (scene.drawable.cells.empty()) {
+  if (draws_grid(arguments)) {
+    scene.drawable.nan = static_cast<std::size_t>(std::ranges::count_if(
+        scene.field.values, [](double value) { return !std::isfinite(value); }));
+  } else {
+    scene.drawable = mesh::find_drawable(mesh, scene.field);
+  }
+  if (scene.drawable.cells.empty() && !draws_grid(arguments)) {
     throw base::InputError(fmt::format(
         "{}: no cell can be drawn: {} have no volume, {} touch values of '{}' or "
         "coordinates that are not finite",

@@ -38,6 +38,7 @@
 #include "mesh/read_ucd.h"
 #include "mesh/read_volume.h"
 #include "mesh/read_vtk.h"
+#include "mesh/rectilinear_grid.h"
 #include "mesh/surface_fields.h"
 #include "mesh/tetrahedralize.h"
 #include "mesh/weld.h"
@@ -286,6 +287,16 @@ void weld_points(MeshData& data, double distance, std::vector<std::string>& note
   }
 }
 
+/// Of a grid whose field is drawn between its points no tetrahedron is needed.
+TetMesh points_of_grid(MeshData data) {
+  (void)rectilinear_grid(data);  // throws where it is none
+  TetMesh mesh;
+  mesh.points = std::move(data.points);
+  mesh.fields = std::move(data.fields);
+  order_fields(mesh);
+  return mesh;
+}
+
 TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& options,
                         ImportReport& report) {
   std::vector<std::string>& notes = report.notes;
@@ -318,6 +329,7 @@ TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& 
       }
       return fill_points(data, notes);
   }
+  if (options.grid_only) return points_of_grid(std::move(data));
   if (const std::size_t unused = unused_points(data); unused > 0) {
     notes.push_back(fmt::format("{} points that no cell uses are left out", unused));
   }

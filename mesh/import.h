@@ -32,7 +32,8 @@ struct ImportOptions {
   Tetrahedralizer tetrahedralizer = Tetrahedralizer::automatic;
   FillOptions fill;                      ///< of surfaces and of regions in images
   std::optional<VolumeRegions> regions;  ///< mesh these of an image, instead of splitting it all
-  bool repair = false;  ///< mend surfaces before they are filled (repair_surface.h)
+  bool grid_only = false;  ///< of solids: points and fields alone, of a grid (rectilinear_grid.h)
+  bool repair = false;     ///< mend surfaces before they are filled (repair_surface.h)
   double largest_hole = kUsualLargestHole;  ///< that a repair closes
 };
 

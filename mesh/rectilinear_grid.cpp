@@ -110,6 +110,57 @@ bool fills_voxels(const TetMesh& mesh, const RectilinearGrid& grid) {
   return std::ranges::all_of(filled, [](std::uint8_t sixths) { return sixths == 6; });
 }
 
+/// Whether there is one cell with all corners of a voxel in each.
+bool fills_voxels(const MeshData& data, const RectilinearGrid& grid) {
+  const std::size_t nx = grid.size(0);
+  const std::size_t ny = grid.size(1);
+  const std::size_t voxels = (nx - 1) * (ny - 1) * (grid.size(2) - 1);
+  std::vector<bool> filled(data.points.size(), false);  // by the first point of a voxel
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < data.cell_count(); ++i) {
+    if (dimension(data.types[i]) < 3) continue;
+    const std::span<const std::uint32_t> cell = data.cell(i);
+    const bool box = data.types[i] == CellType::voxel || data.types[i] == CellType::hexahedron;
+    if (!box || cell.size() != 8) return false;
+    const std::size_t first = *std::ranges::min_element(cell);
+    if (first >= data.points.size() || filled[first]) return false;
+    unsigned corners = 0;
+    for (const std::uint32_t point : cell) {
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        const std::size_t step =
+            (corner & 1U) + (corner >> 1U & 1U) * nx + (corner >> 2U & 1U) * nx * ny;
+        if (point == first + step) corners |= 1U << corner;
+      }
+    }
+    if (corners != 255) return false;
+    filled[first] = true;
+    ++count;
+  }
+  return count == voxels;
+}
+
+RectilinearGrid grid_of_points(const std::vector<Vector3d>& points) {
+  if (points.size() < 8) fail();
+  RectilinearGrid grid;
+  grid.origin = points[0];
+  const RowFinder rows(points);
+  std::size_t stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    rows.find(stride, axis, grid);
+    stride *= grid.size(axis);
+    if (points.size() % stride != 0) fail();
+  }
+  if (stride != points.size() || grid.axes.determinant() == 0) fail();
+  check_points(points, grid, rows.tolerance());
+  return grid;
+}
+
+[[noreturn]] void fail_for_missing_voxels() {
+  throw base::InputError(
+      "some voxels of its grid are left out, which slices cannot draw: draw its cells "
+      "(--projector auto)");
+}
+
 }  // namespace
 
 Vector3d RectilinearGrid::index_at(const Vector3d& coordinate) const {
@@ -126,24 +177,14 @@ Vector3d RectilinearGrid::index_at(const Vector3d& coordinate) const {
 }
 
 RectilinearGrid rectilinear_grid(const TetMesh& mesh) {
-  const std::vector<Vector3d>& points = mesh.points;
-  if (points.size() < 8) fail();
-  RectilinearGrid grid;
-  grid.origin = points[0];
-  const RowFinder rows(points);
-  std::size_t stride = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    rows.find(stride, axis, grid);
-    stride *= grid.size(axis);
-    if (points.size() % stride != 0) fail();
-  }
-  if (stride != points.size() || grid.axes.determinant() == 0) fail();
-  check_points(points, grid, rows.tolerance());
-  if (!fills_voxels(mesh, grid)) {
-    throw base::InputError(
-        "some voxels of its grid are left out, which slices cannot draw: draw its cells "
-        "(--projector auto)");
-  }
+  RectilinearGrid grid = grid_of_points(mesh.points);
+  if (!mesh.cells.empty() && !fills_voxels(mesh, grid)) fail_for_missing_voxels();
+  return grid;
+}
+
+RectilinearGrid rectilinear_grid(const MeshData& data) {
+  RectilinearGrid grid = grid_of_points(data.points);
+  if (!fills_voxels(data, grid)) fail_for_missing_voxels();
   return grid;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "mesh/mesh_data.h"
 #include "mesh/tet_mesh.h"
 
 namespace tetraglass::mesh {
@@ -32,8 +33,13 @@ struct RectilinearGrid {
 /// The values of point fields then lie in the grid's order, and need no copy. Points may be off by
 /// the rounding of single precision. Throws InputError where the points are no such grid
 /// (curvilinear grids, unstructured meshes), and where its tetrahedra do not fill every voxel
-/// (blanked ones). Cost: linear.
+/// (blanked ones). A mesh without cells is taken for whole (ImportOptions::grid_only). Cost:
+/// linear.
 [[nodiscard]] RectilinearGrid rectilinear_grid(const TetMesh& mesh);
+
+/// The same of cells that have not been split: a voxel or hexahedron in each voxel. Others of
+/// dimension 3 are refused, those below are passed over.
+[[nodiscard]] RectilinearGrid rectilinear_grid(const MeshData& data);
 
 /// The trilinear interpolation of one value per point at a place in units of points (index_at).
 [[nodiscard]] double interpolate(const RectilinearGrid& grid, std::span<const double> values,

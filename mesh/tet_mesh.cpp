@@ -193,6 +193,13 @@ CellState state_of(const TetMesh& mesh, const ScalarField& field, std::size_t in
 }  // namespace
 
 Box bounds(const TetMesh& mesh) {
+  if (mesh.cells.empty()) {
+    Box box;
+    for (const Eigen::Vector3d& point : mesh.points) {
+      if (point.allFinite()) box.extend(point);
+    }
+    return box;
+  }
   return tbb::parallel_reduce(
       Range(0, mesh.cells.size(), kGrain), Box(),
       [&](const Range& range, Box so_far) {

@@ -32,8 +32,8 @@ struct TetMesh {
 
 using Box = Eigen::AlignedBox3d;
 
-/// The smallest axis-aligned box around the points that cells use; empty for a mesh without cells.
-/// Points with a coordinate that is not finite are passed over.
+/// The smallest axis-aligned box around the points that cells use, or all points of a mesh without
+/// cells. Points with a coordinate that is not finite are passed over.
 [[nodiscard]] Box bounds(const TetMesh& mesh);
 
 /// One number per point or cell of the mesh, by `spec`, which is tried in this order:

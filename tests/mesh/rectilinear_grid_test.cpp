@@ -68,6 +68,40 @@ TEST(RectilinearGrid, OtherMeshesAreRefused) {
   refused({});
 }
 
+TEST(RectilinearGrid, IsFoundInCellsThatAreNotSplit) {
+  const MeshData data = volume_mesh(slanted({5, 4, 3}));
+  const RectilinearGrid grid = rectilinear_grid(data);
+  EXPECT_EQ(grid.size(0), 5U);
+  EXPECT_EQ(grid.size(2), 3U);
+  TetMesh points;
+  points.points = data.points;
+  EXPECT_EQ(rectilinear_grid(points).axes, grid.axes);
+  EXPECT_EQ(bounds(points).max(), bounds(decompose(data).mesh).max());
+  const auto refused = [](const MeshData& other) {
+    EXPECT_THROW(static_cast<void>(rectilinear_grid(other)), base::InputError);
+  };
+  MeshData missing = data;
+  missing.types.pop_back();
+  missing.offsets.pop_back();
+  missing.connectivity.resize(missing.offsets.back());
+  refused(missing);
+  MeshData twice = data;
+  std::copy_n(twice.connectivity.begin(), 8, twice.connectivity.begin() + 8);
+  refused(twice);
+  MeshData torn = data;
+  std::swap(torn.connectivity[0], torn.connectivity[17]);
+  refused(torn);
+  MeshData outside = data;
+  outside.connectivity[8] = 4000000000;
+  refused(outside);
+  MeshData tetrahedra = data;
+  tetrahedra.types[3] = CellType::wedge;
+  refused(tetrahedra);
+  MeshData surface = data;  // cells below dimension 3 do not matter
+  surface.add_cell(CellType::triangle, std::array<std::uint32_t, 3>{0, 1, 7});
+  EXPECT_EQ(rectilinear_grid(surface).size(1), 4U);
+}
+
 TEST(RectilinearGrid, InterpolationIsExactForProductsOfCoordinates) {
   const auto f = [](const Eigen::Vector3d& p) {
     return (1 + 2 * p.x()) * (3 - p.y()) * (p.z() + 0.5);
