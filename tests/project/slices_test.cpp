@@ -342,6 +342,14 @@ TEST(Slices, PlanRefusesWhatSlicesLack) {
   scene.depth_cue.reset();
   request.sort = SortMethod::mpvo;
   refused(scene, request);
+  scene.mode = Mode::iso;
+  scene.isosurfaces = {{0.4, {1, 1, 1}, 1}};
+  scene.shading = Shading::smooth;
+  EXPECT_NO_THROW(static_cast<void>(plan(scene, slices)));
+  preint::ControlPoint shiny;
+  shiny.material.shininess = 5;
+  scene.transfer_function = preint::TransferFunction({shiny});
+  refused(scene, slices);
   scene.grid.reset();
   refused(scene, slices);
   request = {};
