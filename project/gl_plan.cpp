@@ -1,5 +1,8 @@
 #include "project/gl_plan.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/errors.h"
@@ -33,6 +36,18 @@ bool accumulates_colors(const Scene& scene) {
          (scene.mode == Mode::mip && scene.mip_of == MipOf::transfer);
 }
 
+// As gl/view_uniforms.cpp moves rays that lie on edges.
+double position_rounding(const Scene& scene) {
+  const Frame frame = make_frame(scene);
+  const mesh::Box box = mesh::bounds(*scene.mesh);
+  if (box.isEmpty()) return 0;
+  const double radius = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
+  const double distance =
+      frame.parallel() ? 1
+                       : std::max(radius, frame.to_camera(0.5 * box.min() + 0.5 * box.max()).z());
+  return std::ldexp(radius / distance / frame.pitch(), -21);
+}
+
 }  // namespace
 
 GlPlan plan_gl(const Scene& scene, const GlRequest& request, std::vector<std::string>& reasons) {
@@ -60,6 +75,13 @@ GlPlan plan_gl(const Scene& scene, const GlRequest& request, std::vector<std::st
   }
   reasons.push_back("target: " + to_string(plan.target) +
                     (plan.target == TargetFormat::rgba32f ? "" : ", rounded at every cell"));
+  plan.position_rounding = position_rounding(scene);
+  if (plan.position_rounding > kLargestPositionRounding) {
+    reasons.push_back(
+        fmt::format("precision: too low; seen so near, floats hold positions to {:.2g} pixels; the "
+                    "cpu projector holds them to 1e-6",
+                    plan.position_rounding));
+  }
   return plan;
 }
 

@@ -38,7 +38,13 @@ struct GlPlan {
   Minimum minimum = Minimum::shader;  ///< faces12
   bool interpolate_lengths = false;   ///< faces12: the paper's parameters, wrong in perspective
   TargetFormat target = TargetFormat::rgba32f;
+  /// What positions in the picture are rounded to, in pixels: vertices are floats of half the
+  /// mesh's diagonal. Beyond kLargestPositionRounding cells fall apart, and plan tells so.
+  double position_rounding = 0;
 };
+
+/// Half of what tells neighbouring pixels' rays apart.
+inline constexpr double kLargestPositionRounding = 0.25;
 
 /// Throws UsageError for what the layout or the mode lacks. One line per decision that is not the
 /// default goes to `reasons`.

@@ -42,7 +42,7 @@ std::vector<std::uint32_t> select(const Scene& scene, const F& shows) {
 std::vector<std::uint32_t> crossed_cells(const Scene& scene, const ValueScale& scale) {
   std::vector<float> isovalues;
   for (const preint::Isosurface& surface : scene.isosurfaces) {
-    isovalues.push_back(scale.scaled(surface.value));
+    isovalues.push_back(scale.isovalue_threshold(surface.value));
   }
   std::sort(isovalues.begin(), isovalues.end());
   return select(scene, [&](const Range& range) {

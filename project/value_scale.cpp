@@ -15,4 +15,8 @@ float ValueScale::scaled(double value) const {
   return static_cast<float>(std::clamp((value - middle_) / half_range_, -1e30, 1e30));
 }
 
+float ValueScale::isovalue_threshold(double value) const {
+  return scaled(value) - 0x1p-21F;
+}
+
 }  // namespace tetraglass::project

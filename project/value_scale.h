@@ -13,6 +13,13 @@ class ValueScale {
   /// Within [-1, 1] for values of the field; others may lie outside, but are finite.
   [[nodiscard]] float scaled(double value) const;
 
+  /// What the values at the ends of a segment are compared with to tell whether it crosses an
+  /// isosurface: 2^-21 lower than `scaled`. Where rays pass exactly through edges of the mesh, the
+  /// faces there give the same value only up to rounding, and an isovalue equal to it (that of a
+  /// vertex, often) would lie between them: met by no segment, or by two. Values equal to the
+  /// isovalue stay above it. Where on the segment the surface lies is found with `scaled`.
+  [[nodiscard]] float isovalue_threshold(double value) const;
+
   /// The inverse.
   [[nodiscard]] double value(double scaled) const { return middle_ + half_range_ * scaled; }
 

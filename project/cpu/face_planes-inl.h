@@ -190,6 +190,11 @@ class FaceSetup {
     }
   }
 
+  /// What moving the ray adds to a plane of this slope.
+  static HWY_INLINE V shift(V dx, V dy) {
+    return hn::Sub(hn::Mul(dx, hn::Set(kD, kShiftRight)), hn::Mul(dy, hn::Set(kD, kShiftUp)));
+  }
+
   /// The face with vertices a, b, c (ascending). `inside`: the sign of ((b - a) x (c - a)).(v - a)
   /// of the fourth vertex v, known without rounding from the orientation of the cell.
   static HWY_INLINE void face(const Vertex& a, const Vertex& b, const Vertex& c, V inside, V unit,
@@ -218,15 +223,13 @@ class FaceSetup {
     } else {
       start = hn::Sub(a.at.z, hn::MulAdd(dx, a.at.x, hn::Mul(dy, a.at.y)));
     }
-    const V shift =
-        hn::Sub(hn::Mul(dx, hn::Set(kD, kShiftRight)), hn::Mul(dy, hn::Set(kD, kShiftUp)));
-    start = hn::Add(start, hn::IfThenElseZero(edge_on, shift));
+    start = hn::Add(start, hn::IfThenElseZero(edge_on, shift(dx, dy)));
     store(batch.depth, k, start, dx, dy);
     const V steep = hn::Set(kD, kSteep);
     // Depths of perspective views are in units of the middle depth.
     auto is_steep = hn::Lt(steep, hn::Mul(unit, hn::Add(hn::Abs(dx), hn::Abs(dy))));
     if constexpr (kValues) {
-      const V slope_of_values = values(a, b, c, e1, e2, n, inverse, k, batch);
+      const V slope_of_values = values(a, b, c, e1, e2, n, inverse, edge_on, k, batch);
       is_steep = hn::Or(is_steep, hn::Lt(steep, slope_of_values));
     }
     set_bits(batch.steep, k, is_steep);
@@ -236,8 +239,8 @@ class FaceSetup {
   /// the vertices. In perspective the function g with g.P = value at the three vertices, which
   /// divided by z is linear in (X, Y) = (P.x, P.y) / z. Returns the slope.
   static HWY_INLINE V values(const Vertex& a, const Vertex& b, const Vertex& c, const Vector& e1,
-                             const Vector& e2, const Vector& n, V inverse, std::size_t k,
-                             FaceBatch& batch) {
+                             const Vector& e2, const Vector& n, V inverse,
+                             hn::Mask<DoubleTag> edge_on, std::size_t k, FaceBatch& batch) {
     const V d1 = hn::Sub(b.value, a.value);
     const V d2 = hn::Sub(c.value, a.value);
     const Vector w = {hn::Sub(hn::Mul(d1, e2.x), hn::Mul(d2, e1.x)),
@@ -256,6 +259,7 @@ class FaceSetup {
       dy = hn::Neg(hn::Mul(w.x, inverse));
       start = hn::Sub(a.value, hn::MulAdd(dx, a.at.x, hn::Mul(dy, a.at.y)));
     }
+    start = hn::Add(start, hn::IfThenElseZero(edge_on, shift(dx, dy)));
     store(batch.value, k, start, dx, dy);
     return hn::Add(hn::Abs(dx), hn::Abs(dy));
   }

@@ -44,8 +44,8 @@ class IsoShader {
     for (const Surface& surface : surfaces_) {
       const Float value = set(surface.value);
       // Half open, as preint::crosses: of two segments with a common end exactly one is crossed.
-      const Lanes front_below = hn::Lt(s.front, value);
-      const Lanes back_below = hn::Lt(s.back, value);
+      const Lanes front_below = hn::Lt(s.front, set(surface.threshold));
+      const Lanes back_below = hn::Lt(s.back, set(surface.threshold));
       const Lanes crossed = hn::And(covered, hn::Xor(front_below, back_below));
       if (hn::AllFalse(FloatTag(), crossed)) continue;
       const Float span = hn::IfThenElse(crossed, hn::Sub(s.back, s.front), set(1));

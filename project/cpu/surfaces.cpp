@@ -7,6 +7,7 @@ std::vector<Surface> surfaces(const Scene& scene, const DrawnCells& cells) {
   for (const preint::Isosurface& surface : scene.isosurfaces) {
     const Eigen::Array3f color = surface.color.cast<float>();
     result.push_back({cells.scale.scaled(surface.value),
+                      cells.scale.isovalue_threshold(surface.value),
                       static_cast<float>(surface.opacity),
                       {color[0], color[1], color[2]},
                       scene.transfer_function.material_at(surface.value)});

@@ -10,7 +10,8 @@ namespace tetraglass::project::cpu {
 
 /// An isosurface of a scene, as the kernels read it.
 struct Surface {
-  float value = 0;  ///< scaled
+  float value = 0;      ///< scaled
+  float threshold = 0;  ///< ValueScale::isovalue_threshold
   float opacity = 1;
   std::array<float, 3> color = {};
   preint::Material material;

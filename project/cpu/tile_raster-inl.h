@@ -205,7 +205,12 @@ class TileRaster {
     double dx = 0;
     double dy = 0;
     bool steep = false;
+    bool edge_on = false;  ///< so steep that each lane needs it
   };
+
+  /// The slope of depths per pixel above which a face counts as seen edge on: 2^-22 pixels are then
+  /// 2^-20 (see FaceBatch::steep).
+  static constexpr double kEdgeOn = 4;
 
   template <std::size_t kFaces>
   struct CellPlanes {
@@ -232,8 +237,10 @@ class TileRaster {
   HWY_INLINE void load_exact_planes(std::size_t face, std::size_t i, std::size_t k,
                                     CellPlanes<kFaces>& planes) const {
     const bool steep = (batch_.steep[i] >> face & 1U) != 0;
+    const bool edge_on =
+        steep && std::abs(batch_.depth.dx[face][i]) + std::abs(batch_.depth.dy[face][i]) > kEdgeOn;
     const auto load = [&](const Planes& from) {
-      return ExactPlane{from.start[face][i], from.dx[face][i], from.dy[face][i], steep};
+      return ExactPlane{from.start[face][i], from.dx[face][i], from.dy[face][i], steep, edge_on};
     };
     planes.exact_depth[k] = load(batch_.depth);
     if constexpr (Shader::kValues) planes.exact_value[k] = load(batch_.value);
@@ -241,9 +248,23 @@ class TileRaster {
 
   /// The plane at the pixels of the block whose first pixel lies at (x, y) from the tile's middle.
   HWY_INLINE Float at_block(const ExactPlane& p, const Plane& rounded, int x, int y) const {
+    if (HWY_UNLIKELY(p.edge_on)) return at_lanes(p, x, y);
     const double first = p.start + p.dx * x + p.dy * y;
     return hn::MulAdd(rounded.dx, in_block_x_,
                       hn::MulAdd(rounded.dy, in_block_y_, set(static_cast<float>(first))));
+  }
+
+  /// The same in double in every lane. Within the block, floats move a plane by up to 2^-22 pixels:
+  /// depth and value of a face seen nearly edge on would be moved apart, and no longer belong to
+  /// one point.
+  HWY_NOINLINE Float at_lanes(const ExactPlane& p, int x, int y) const {
+    alignas(64) std::array<float, kLanes> result;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const int lane = static_cast<int>(i);
+      const double at = p.start + p.dx * (x + lane % kBlockWidth) + p.dy * (y + lane / kBlockWidth);
+      result[i] = static_cast<float>(std::clamp(at, -1e30, 1e30));
+    }
+    return hn::Load(FloatTag(), result.data());
   }
 
   HWY_INLINE void draw_cell(std::uint32_t cell, std::size_t i) {

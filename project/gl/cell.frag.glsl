@@ -161,7 +161,7 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
     int i = rising ? k : surface_count - 1 - k;
     if (!crosses(seg.front, seg.back, surface_value(i))) continue;
     any = true;
-    float t = (surface_value(i) - seg.front) / (seg.back - seg.front);
+    float t = clamp((surface_place(i) - seg.front) / (seg.back - seg.front), 0.0, 1.0);
     float opacity = surface_opacity(i);
     vec4 surface = vec4(opacity * surface_color(i), opacity);
     color += (1 - color.a) * vec4(lit(i, surface, seg, t, position), opacity);

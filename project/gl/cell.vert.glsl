@@ -167,10 +167,9 @@ void main() {
   value_most = vec4(most(s[1], s[2], s[3]), most(s[0], s[2], s[3]), most(s[0], s[1], s[3]), most(s[0], s[1], s[2]));
   value_at_eye = 0;
 #ifndef PARALLEL
-  // Needed where the eye is in the cell: then all four are positive.
-  if (all(greaterThan(facing, vec4(0)))) {
-    value_at_eye = dot(facing, vec4(s[0], s[1], s[2], s[3])) / dot(facing, vec4(1));
-  }
+  // Needed where the eye is in the cell, all four are positive then, or on its boundary.
+  float volume = dot(facing, vec4(1));
+  if (volume != 0) value_at_eye = dot(facing, vec4(s[0], s[1], s[2], s[3])) / volume;
 #endif
 #endif
 #ifdef CELL_FIELD

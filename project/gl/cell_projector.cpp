@@ -210,7 +210,8 @@ void CellProjector::draw_fragments(bool parallel, const ViewUniforms& view, cons
   counting.use();
   cells_->draw();
   const std::vector<std::uint32_t> counts = lists_->counts(tile.width, tile.height);
-  for (const Patch& patch : patches(counts, tile.width, lists_->most())) {
+  for (const Patch& patch :
+       patches(counts, tile.width, lists_->most(), context_.limits().sorted_fragments)) {
     set_blending();
     lists_->begin_patch(patch, counts, tile.width);
     gathering.use();

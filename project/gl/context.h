@@ -18,6 +18,8 @@ struct Limits {
   int table_2d = 0;       ///< largest width and height of a 2D texture, in texels
   int table_3d = 0;       ///< ... and of a 3D texture
   int subpixel_bits = 0;  ///< the rasterizer rounds vertices to 2^-subpixel_bits pixels
+  /// The most fragments of one pixel that a shader can sort (fragment_lists.h).
+  std::size_t sorted_fragments = 0;
 };
 
 /// An OpenGL 4.5 core context, current on the thread that made it, with its functions loaded.

@@ -19,7 +19,15 @@ constexpr GLuint kLights = 1;
 
 }  // namespace
 
-std::vector<Patch> patches(std::span<const std::uint32_t> counts, int width, std::size_t most) {
+std::vector<Patch> patches(std::span<const std::uint32_t> counts, int width, std::size_t most,
+                           std::size_t longest) {
+  const std::size_t largest = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
+  if (largest > std::min(most, longest)) {
+    throw base::UnavailableError(
+        fmt::format("a pixel meets {} cells, more than the fragment lists hold and sort here ({}); "
+                    "use --projector cpu or reference",
+                    largest, std::min(most, longest)));
+  }
   std::vector<Patch> result;
   const auto columns = static_cast<std::size_t>(width);
   const int height = static_cast<int>(counts.size() / columns);
@@ -42,12 +50,6 @@ std::vector<Patch> patches(std::span<const std::uint32_t> counts, int width, std
     Patch part{0, y, 0, 1, 0};
     for (int x = 0; x < width; ++x) {
       const std::size_t count = row[static_cast<std::size_t>(x)];
-      if (count > most) {
-        throw base::UnavailableError(
-            fmt::format("a pixel meets {} cells, more than the fragment lists hold ({}); use "
-                        "--projector cpu or reference",
-                        count, most));
-      }
       if (part.fragments + count > most) {
         result.push_back(part);
         part = {x, y, 0, 1, 0};

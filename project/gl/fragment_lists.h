@@ -21,9 +21,9 @@ struct Patch {
 
 /// Cuts a picture of `width` columns into patches with at most `most` fragments each, which cover
 /// every pixel that has one exactly once. `counts`: the fragments of each pixel, row by row. Throws
-/// UnavailableError where one pixel alone has more.
+/// UnavailableError where one pixel alone has more, or more than `longest`.
 [[nodiscard]] std::vector<Patch> patches(std::span<const std::uint32_t> counts, int width,
-                                         std::size_t most);
+                                         std::size_t most, std::size_t longest);
 
 /// The order `fragments`: every pixel's segments are gathered in a list, sorted by their depth and
 /// blended there: exact for any mesh, cycles and overlaps included. No fragment is ever lost: they

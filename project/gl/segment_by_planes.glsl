@@ -27,6 +27,9 @@ uniform float farthest;       // Z behind the whole mesh
 // No plane lies here.
 const float kNowhere = 1e32;
 
+// Nearer than this part of the focus cannot be told from the eye: what depths are rounded to.
+const float kAtEye = 9.5367431640625e-7;  // 2^-20
+
 // Not a segment of the ray: false.
 bool segment(vec2 position, out Segment seg) {
   vec4 x = position.x - anchors.xzzz;
@@ -67,9 +70,13 @@ bool segment(vec2 position, out Segment seg) {
   seg.front = 0;
   seg.back = 0;
 #ifdef VALUES
+  // A face through the eye is met there by every ray. Z and s are then quotients by (nearly) zero, whose
+  // own quotient has few digits; the value at the eye has all.
+  s_enter = enter_scale < kAtEye ? value_at_eye : s_enter * enter_scale;
+  s_leave = leave_scale < kAtEye ? value_at_eye : s_leave * leave_scale;
   // A value on a face lies among those of its corners; so it is exact where they are equal.
-  seg.front = at_eye ? value_at_eye : clamp(s_enter * enter_scale, enter_range.x, enter_range.y);
-  seg.back = clamp(s_leave * leave_scale, leave_range.x, leave_range.y);
+  seg.front = at_eye ? value_at_eye : clamp(s_enter, enter_range.x, enter_range.y);
+  seg.back = clamp(s_leave, leave_range.x, leave_range.y);
 #endif
 #ifdef CELL_FIELD
   seg.front = cell_value;

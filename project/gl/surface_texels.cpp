@@ -17,8 +17,9 @@ std::vector<Eigen::Vector4f> surface_texels(const Scene& scene,
   std::vector<Eigen::Vector4f> texels;
   for (const preint::Isosurface& surface : surfaces) {
     const Eigen::Vector3f color = surface.color.cast<float>().matrix();
-    texels.emplace_back(normalization.value(surface.value), static_cast<float>(surface.opacity),
-                        0.0F, 0.0F);
+    texels.emplace_back(normalization.values.isovalue_threshold(surface.value),
+                        static_cast<float>(surface.opacity), normalization.value(surface.value),
+                        0.0F);
     texels.emplace_back(color.x(), color.y(), color.z(), 0.0F);
     texels.push_back(material_texel(scene, surface.value));
   }

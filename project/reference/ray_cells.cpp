@@ -97,7 +97,7 @@ void RayCells::bin_cells() {
 /// On which side of the edge the ray passes: the sign of det [from, to, ray], decided exactly, with
 /// ties broken as if the ray were moved by (epsilon, epsilon^2) to the right and up: the
 /// derivatives of the determinant by the ray's coordinates. 0 only for an edge that the whole moved
-/// ray misses (it projects to a point).
+/// ray misses (it projects to a point). In perspective that may be an edge that the eye is on.
 int RayCells::edge_side(std::uint32_t from, std::uint32_t to, const Eigen::Vector2d& plane) const {
   if (from > to) return -edge_side(to, from, plane);  // both cells at an edge compute the same
   const Eigen::Vector3d p = projective(from);
@@ -107,7 +107,34 @@ int RayCells::edge_side(std::uint32_t from, std::uint32_t to, const Eigen::Vecto
   const int by_x =
       mesh::sign_of_determinant(Eigen::Vector2d(p.y(), p.z()), Eigen::Vector2d(q.y(), q.z()));
   if (by_x != 0) return by_x;
-  return mesh::sign_of_determinant(Eigen::Vector2d(p.z(), p.x()), Eigen::Vector2d(q.z(), q.x()));
+  const int by_y =
+      mesh::sign_of_determinant(Eigen::Vector2d(p.z(), p.x()), Eigen::Vector2d(q.z(), q.x()));
+  if (by_y != 0 || frame_.parallel()) return by_y;
+  return edge_side_at_eye(p, q, plane);
+}
+
+/// Of an edge in line with the eye (p x q = 0 exactly): decided as if the eye e were moved too, by
+/// far less, by (epsilon, epsilon^2, epsilon^3), so that a vertex or an edge at the eye does not
+/// hide the cells around it. What is left of det [p - e, q - e, ray] is then e . ((p - q) x ray).
+int RayCells::edge_side_at_eye(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                               const Eigen::Vector2d& plane) const {
+  // p - q is parallel to the longer of the two; its direction is decided without rounding.
+  int axis = 0;
+  while (axis < 2 && p[axis] == q[axis]) ++axis;
+  const bool along_p = p.cwiseAbs()[axis] > q.cwiseAbs()[axis];
+  const Eigen::Vector3d& longer = along_p ? p : q;
+  const int turn = (p[axis] < q[axis]) == (longer[axis] < 0) ? 1 : -1;
+  for (const Eigen::Vector3d& ray : {Eigen::Vector3d(plane.x(), plane.y(), 1),
+                                     Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      const int sign = mesh::sign_of_determinant(Eigen::Vector2d(longer[j], longer[k]),
+                                                 Eigen::Vector2d(ray[j], ray[k]));
+      if (sign != 0) return turn * sign;
+    }
+  }
+  return 0;  // the two points are one
 }
 
 bool RayCells::intersect(std::uint32_t cell_index, const Eigen::Vector2d& plane,
@@ -181,11 +208,19 @@ bool RayCells::intersect(std::uint32_t cell_index, const Eigen::Vector2d& plane,
     std::array<std::size_t, 4> order = {0, 1, 2, 3};
     std::sort(order.begin(), order.end(),
               [&](std::size_t i, std::size_t j) { return cell[i] < cell[j]; });
-    segment.front = segment.back = 0;
-    for (const std::size_t i : order) {
-      segment.front += segment.entry_weights[static_cast<int>(i)] * values[cell[i]];
-      segment.back += segment.exit_weights[static_cast<int>(i)] * values[cell[i]];
-    }
+    // As differences from the first that counts: exact where the field is constant, and as fine as
+    // doubles allow where it nearly is.
+    const auto interpolated = [&](const Eigen::Vector4d& at) {
+      const auto counts = [&](std::size_t i) { return at[static_cast<int>(i)] != 0; };
+      const double first = values[cell[*std::find_if(order.begin(), order.end(), counts)]];
+      double rise = 0;
+      for (const std::size_t i : order) {
+        if (counts(i)) rise += at[static_cast<int>(i)] * (values[cell[i]] - first);
+      }
+      return first + rise;
+    };
+    segment.front = interpolated(segment.entry_weights);
+    segment.back = interpolated(segment.exit_weights);
   }
   return true;
 }

@@ -45,6 +45,8 @@ class RayCells {
   [[nodiscard]] Eigen::Vector3d projective(std::uint32_t point) const;
   [[nodiscard]] int edge_side(std::uint32_t from, std::uint32_t to,
                               const Eigen::Vector2d& plane) const;
+  [[nodiscard]] int edge_side_at_eye(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                     const Eigen::Vector2d& plane) const;
   void bin_cells();
 
   /// A cell with the pixels that its image can touch.

@@ -43,7 +43,7 @@ TEST(FragmentLists, PatchesCoverEveryPixelOnceAndHoldTheirFragments) {
     for (std::uint32_t& count : counts) count = random() % 3 == 0 ? random() % 8 : 0;
     const std::size_t most = 7 + random() % 30;
     std::vector<int> covered(counts.size(), 0);
-    for (const gl::Patch& patch : gl::patches(counts, width, most)) {
+    for (const gl::Patch& patch : gl::patches(counts, width, most, most)) {
       EXPECT_LE(patch.fragments, most);
       std::size_t sum = 0;
       for (int y = patch.y; y < patch.y + patch.height; ++y) {
@@ -60,7 +60,10 @@ TEST(FragmentLists, PatchesCoverEveryPixelOnceAndHoldTheirFragments) {
       EXPECT_TRUE(covered[i] == 1 || counts[i] == 0);
     }
   }
-  EXPECT_THROW((void)gl::patches(std::vector<std::uint32_t>{9}, 1, 8), base::UnavailableError);
+  const std::vector<std::uint32_t> nine = {9};
+  EXPECT_EQ(gl::patches(nine, 1, 9, 9).size(), 1U);
+  EXPECT_THROW((void)gl::patches(nine, 1, 8, 9), base::UnavailableError);
+  EXPECT_THROW((void)gl::patches(nine, 1, 9, 8), base::UnavailableError);
 }
 
 // Cells that hide each other in cycles, and such as overlap: no order of cells is right.
