@@ -105,6 +105,7 @@ int run(int argc, char** argv) {
   add_compare(program);
   add_order(program);
   add_table(program);
+  add_accuracy(program);
   try {
     program.parse(argc, argv);
     return 0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@
 #include "base/output_file.h"
 #include "base/stopwatch.h"
 #include "base/suggest.h"
+#include "project/error_budget.h"
 #include "project/image_file.h"
 
 namespace tetraglass::apps {
@@ -89,12 +91,76 @@ void limit_threads(const RenderArguments& arguments, std::optional<tbb::global_c
   setenv("LP_NUM_THREADS", std::to_string(threads > 1 ? threads : 0).c_str(), 1);
 }
 
+void warn_of_plan(const project::Plan& plan) {
+  if (plan.projector == project::Projector::gl &&
+      plan.gl.position_rounding > project::kLargestPositionRounding) {
+    warn(
+        fmt::format("only a tiny part of the mesh is in the picture: there the gl projector holds "
+                    "positions to {:.2g} pixels only; use --projector cpu",
+                    plan.gl.position_rounding));
+  }
+}
+
+struct Drawn {
+  project::Plan plan;
+  project::Image image;
+};
+
+// Random pixels that are checked where --max-error is given and --verify is not.
+constexpr int kPixelsChecked = 500;
+
+/// What is checked, and how far the picture may be off.
+struct Checks {
+  int pixels = 0;
+  std::optional<double> max_error;
+};
+
+Checks parse_checks(const RenderArguments& arguments) {
+  Checks checks;
+  if (!arguments.max_error.empty()) {
+    checks.max_error = parse_number(arguments.max_error, "--max-error");
+    if (!(*checks.max_error > 0)) throw base::UsageError("--max-error needs an error above 0");
+    checks.pixels = kPixelsChecked;
+  }
+  if (!arguments.verify.empty()) checks.pixels = parse_count(arguments.verify, "--verify", 1);
+  return checks;
+}
+
+Drawn draw_within(const RenderArguments& arguments, const project::Scene& scene,
+                  const project::Request& request, const Checks& checks, RenderReport& report) {
+  project::VerifiedImage result =
+      project::render_within(scene, request, *checks.max_error, checks.pixels);
+  if (arguments.explain) print_plan(result.plan);
+  warn_of_plan(result.plan);
+  report.stats = result.stats;
+  report.verification = result.verification;
+  if (!result.met) {
+    warn(
+        fmt::format("--max-error {} is not met: the picture errs by {:.3g}; allow other "
+                    "projectors, orders and integrators, or ask for --projector reference",
+                    arguments.max_error, result.verification.max_error));
+  }
+  return {std::move(result.plan), std::move(result.image)};
+}
+
+Drawn draw(const RenderArguments& arguments, const project::Scene& scene,
+           const project::Request& request, const Checks& checks, RenderReport& report) {
+  if (checks.max_error) return draw_within(arguments, scene, request, checks, report);
+  Drawn drawn{project::plan(scene, request), {}};
+  if (arguments.explain) print_plan(drawn.plan);
+  warn_of_plan(drawn.plan);
+  drawn.image = project::render(scene, drawn.plan, report.stats);
+  if (checks.pixels > 0) {
+    report.verification = project::verify(scene, drawn.image, checks.pixels);
+  }
+  return drawn;
+}
+
 void render(const RenderArguments& arguments) {
   std::optional<tbb::global_control> control;
   limit_threads(arguments, control);
   const project::Request request = make_request(arguments);
-  const int verify_count =
-      arguments.verify.empty() ? 0 : parse_count(arguments.verify, "--verify", 1);
+  const Checks checks = parse_checks(arguments);
   check_outputs(arguments);
 
   mesh::ImportOptions options = arguments.import;
@@ -107,14 +173,10 @@ void render(const RenderArguments& arguments) {
                     "are not drawn",
                     scene.drawable.degenerate, scene.drawable.nan));
   }
-  const project::Plan plan = project::plan(scene, request);
-  if (arguments.explain) print_plan(plan);
-
   RenderReport report;
   report.import = imported.report;
-  const project::Image image = project::render(scene, plan, report.stats);
-  if (verify_count > 0) {
-    report.verification = verify(scene, image, verify_count);
+  const Drawn drawn = draw(arguments, scene, request, checks, report);
+  if (report.verification) {
     fmt::print(
         stderr,
         "verified {} random pixels against the reference: largest error {:.3g}, RMS {:.3g}\n",
@@ -122,16 +184,18 @@ void render(const RenderArguments& arguments) {
         report.verification->rms_error);
   }
   const base::Stopwatch clock;
-  write_pictures(arguments, scene.mode, image);
+  write_pictures(arguments, scene.mode, drawn.image);
   report.write_ms = clock.milliseconds();
   if (!arguments.stats.empty()) {
     base::OutputFile stats(arguments.stats);
-    stats.write(stats_json(scene, plan, report));
+    stats.write(stats_json(scene, drawn.plan, report));
     stats.commit();
   }
   fmt::print(stderr, "{}\n", stage_lines(report));
   fmt::print("{}\n", fmt::join(arguments.outputs, "\n"));
 }
+
+}  // namespace
 
 void add_scene_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--size", a.size, "Pixels, WxH")->capture_default_str();
@@ -185,6 +249,8 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "Linear R,G,B[,A] behind a .png. Default: black (white in mode absorption)");
 }
 
+namespace {
+
 void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--projector", a.projector,
                   "auto | cpu | gl | reference (exact and slow); of uniform and "
@@ -222,6 +288,9 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
   app->add_flag("--explain", a.explain,
                 "Print how the picture is drawn, and why, before drawing it");
   app->add_option("--stats", a.stats, "Write times, counts and the plan to this JSON file");
+  app->add_option("--max-error", a.max_error,
+                  "Largest error per channel: draw as cheaply as that allows, check random pixels "
+                  "against the reference (500, or as many as --verify says), step up if need be");
   app->add_option("--verify", a.verify,
                   "Check N random pixels against the reference and print the error");
 }

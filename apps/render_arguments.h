@@ -10,6 +10,10 @@
 #include "project/plan.h"
 #include "project/scene.h"
 
+namespace CLI {
+class App;
+}
+
 namespace tetraglass::apps {
 
 /// The options as typed; empty where not given.
@@ -50,6 +54,7 @@ struct RenderArguments : CameraArguments {
   std::string background;
   std::string stats;
   std::string verify;
+  std::string max_error;
   std::string threads;
   bool explain = false;
   SlicesArguments slices;
@@ -58,6 +63,9 @@ struct RenderArguments : CameraArguments {
 
 /// Whether the trilinear field of a grid is drawn, not cells.
 [[nodiscard]] bool draws_grid(const RenderArguments& arguments);
+
+/// What is drawn, seen how: all options of a scene but its camera's.
+void add_scene_options(CLI::App* app, RenderArguments& arguments);
 
 /// The scene that the arguments ask for, of a mesh that outlives it. Throws UsageError for values
 /// that cannot be, InputError and ReadError where the mesh or the transfer function's file lack

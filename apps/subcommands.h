@@ -15,5 +15,6 @@ void add_sample(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_order(CLI::App& program);
 void add_table(CLI::App& program);
+void add_accuracy(CLI::App& program);
 
 }  // namespace tetraglass::apps

@@ -1,0 +1,228 @@
+#include "project/accuracy_study.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "project/cpu/cell_projector.h"
+#include "project/gl/cell_projector.h"
+#include "project/gl/context.h"
+#include "project/reference/reference.h"
+#include "project/render.h"
+
+namespace tetraglass::project {
+namespace {
+
+Request of_gl() {
+  Request request;
+  request.projector = Projector::gl;
+  return request;
+}
+
+std::vector<StudyCase> projector_cases() {
+  std::vector<StudyCase> cases;
+  Request cpu;
+  cpu.projector = Projector::cpu;
+  cases.push_back({"projector", "cpu", cpu});
+  for (const double opacity : {0.9, 0.99, 0.999}) {
+    cpu.opaque_at = opacity;
+    cases.push_back({"opaque at", fmt::format("cpu, rays end at {}", opacity), cpu});
+  }
+  cases.push_back({"projector", "gl", of_gl()});
+  return cases;
+}
+
+void add_integrators(const Scene& scene, bool all, std::vector<StudyCase>& cases) {
+  Request request = of_gl();
+  request.integrator = Integrator::linear;
+  cases.push_back({"integrator", "gl, linear", request});
+  struct Size {
+    int n;
+    int m;
+    bool always;
+  };
+  for (const Size& size : {Size{32, 16, true}, {64, 32, true}, {128, 64, true}, {256, 64, false}}) {
+    if (!size.always && !all) continue;
+    request.integrator = Integrator::table3d;
+    request.table_n = size.n;
+    request.table_m = size.m;
+    cases.push_back({"integrator", fmt::format("gl, table3d {}x{}", size.n, size.m), request});
+  }
+  request.table_m = 0;
+  for (const int n : {64, 256, 1024}) {
+    request.integrator = scene.mode == Mode::full ? Integrator::psi : Integrator::table2d;
+    request.table_n = n;
+    cases.push_back(
+        {"integrator", fmt::format("gl, {} {}", to_string(*request.integrator), n), request});
+  }
+}
+
+void add_orders(std::vector<StudyCase>& cases) {
+  for (const SortMethod sort : {SortMethod::centroid, SortMethod::power, SortMethod::fragments}) {
+    Request request = of_gl();
+    request.sort = sort;
+    cases.push_back({"order", "gl, " + to_string(sort), request});
+  }
+}
+
+void add_layouts(std::vector<StudyCase>& cases) {
+  struct Variant {
+    const char* name;
+    Layout layout;
+    std::optional<bool> edge_fix;
+    std::optional<Minimum> minimum;
+  };
+  for (const Variant& variant :
+       {Variant{"strip", Layout::strip, {}, {}}, Variant{"faces12", Layout::faces12, {}, {}},
+        Variant{"faces12, no edge fix", Layout::faces12, false, {}},
+        Variant{"faces12, 16-bit minimum", Layout::faces12, {}, Minimum::texture16},
+        Variant{"faces12, 8-bit minimum", Layout::faces12, {}, Minimum::texture8},
+        Variant{"faces12-short", Layout::faces12_short, {}, {}}}) {
+    Request request = of_gl();
+    request.gl.layout = variant.layout;
+    request.gl.edge_fix = variant.edge_fix;
+    request.gl.minimum = variant.minimum;
+    cases.push_back({"layout", std::string("gl, ") + variant.name, request});
+  }
+}
+
+void add_targets(std::vector<StudyCase>& cases) {
+  for (const TargetFormat target : {TargetFormat::rgba16f, TargetFormat::rgba8}) {
+    Request request = of_gl();
+    request.gl.target = target;
+    cases.push_back({"target", "gl, " + to_string(target), request});
+  }
+}
+
+bool is_possible(const Scene& scene, const StudyCase& one) {
+  try {
+    const Plan planned = plan(scene, one.request);
+    // An order that the mode does not need is the picture without it.
+    return one.knob != "order" || planned.sort != SortMethod::none;
+  } catch (const base::UsageError&) {
+    return false;
+  }
+}
+
+/// The projector of one plan, ready to draw frames.
+class Drawing {
+ public:
+  Drawing(const Scene& scene, const Plan& plan) : scene_(scene), plan_(plan) {
+    if (plan.projector == Projector::cpu) cpu_ = std::make_unique<cpu::CellProjector>(scene, plan);
+    if (plan.projector != Projector::gl) return;
+    context_ = gl::Context::create(plan.context);
+    Stats stats;
+    gl_ = std::make_unique<gl::CellProjector>(*context_, scene, plan, stats);
+  }
+
+  [[nodiscard]] Image frame() {
+    Stats stats;
+    if (cpu_) return cpu_->draw(make_frame(scene_), stats);
+    if (gl_) return gl_->draw(make_frame(scene_), stats);
+    return render(scene_, plan_, stats);
+  }
+
+ private:
+  const Scene& scene_;
+  const Plan& plan_;
+  std::unique_ptr<cpu::CellProjector> cpu_;
+  std::unique_ptr<gl::Context> context_;
+  std::unique_ptr<gl::CellProjector> gl_;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Times {
+  std::vector<double> set_up;
+  std::vector<double> frame;
+};
+
+void draw_once(const Scene& scene, StudyPoint& point, Times& times) {
+  try {
+    const Plan how = plan(scene, point.what.request);
+    base::Stopwatch clock;
+    Drawing drawing(scene, how);
+    point.image = drawing.frame();
+    times.set_up.push_back(clock.milliseconds());
+    const base::Stopwatch second;
+    point.image = drawing.frame();
+    times.frame.push_back(second.milliseconds());
+  } catch (const base::Error& error) {  // no context, no memory: told in the table
+    point.failure = error.what();
+  }
+}
+
+}  // namespace
+
+std::vector<StudyCase> study_cases(const Scene& scene, bool all) {
+  std::vector<StudyCase> cases = projector_cases();
+  add_integrators(scene, all, cases);
+  add_orders(cases);
+  add_layouts(cases);
+  add_targets(cases);
+  std::erase_if(cases, [&](const StudyCase& one) { return !is_possible(scene, one); });
+  return cases;
+}
+
+void mark_front(std::vector<StudyPoint>& points) {
+  // What both projectors round a face to: smaller errors are chance.
+  const auto error = [](const StudyPoint& point) { return std::max(point.error.max, 0x1p-20); };
+  for (StudyPoint& point : points) {
+    point.on_front =
+        point.failure.empty() && std::none_of(points.begin(), points.end(), [&](const auto& other) {
+          if (!other.failure.empty()) return false;
+          const bool no_worse = other.frame_ms <= point.frame_ms && error(other) <= error(point);
+          const bool better = other.frame_ms < point.frame_ms || error(other) < error(point);
+          return no_worse && better;
+        });
+  }
+}
+
+Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases, int rounds,
+                     const std::function<void()>& step) {
+  Study study;
+  Stats stats;
+  study.reference = render_reference(scene, stats);
+  study.reference_ms = stats.project_ms;
+  for (const StudyCase& one : cases) {
+    study.points.emplace_back();
+    study.points.back().what = one;
+  }
+  std::vector<Times> times(cases.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (study.points[i].failure.empty()) draw_once(scene, study.points[i], times[i]);
+      step();
+    }
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    StudyPoint& point = study.points[i];
+    if (!point.failure.empty()) continue;
+    point.set_up_ms = median(times[i].set_up);
+    point.frame_ms = median(times[i].frame);
+    point.error = compare(point.image, study.reference);
+  }
+  StudyPoint judge;
+  judge.what = {"projector", "reference", {}};
+  judge.what.request.projector = Projector::reference;
+  judge.set_up_ms = judge.frame_ms = study.reference_ms;
+  judge.error.psnr_db = std::numeric_limits<double>::infinity();
+  judge.error.pixels = study.reference.rgba.size() / 4;
+  judge.image = study.reference;
+  study.points.push_back(std::move(judge));
+  mark_front(study.points);
+  return study;
+}
+
+}  // namespace tetraglass::project
