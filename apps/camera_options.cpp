@@ -65,6 +65,7 @@ project::Camera make_camera(const CameraArguments& arguments, const mesh::TetMes
   }
   camera.parallel = !arguments.ortho.empty();
   if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
+  if (camera.parallel && arguments.eye.empty()) return project::centered(camera, mesh.points);
   return camera;
 }
 

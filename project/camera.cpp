@@ -81,6 +81,21 @@ Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direc
   return frame_camera(corners, direction, up, fov_degrees, aspect);
 }
 
+Camera centered(const Camera& camera, std::span<const Eigen::Vector3d> points) {
+  const Frame frame(camera, 1, 1);
+  Eigen::AlignedBox3d extent;
+  for (const Eigen::Vector3d& point : points) {
+    if (point.allFinite()) extent.extend(frame.to_camera(point));
+  }
+  if (extent.isEmpty()) return camera;
+  Eigen::Vector3d sideways = extent.center();
+  sideways.z() = 0;
+  Camera result = camera;
+  result.eye += frame.axes().transpose() * sideways;
+  result.target += frame.axes().transpose() * sideways;
+  return result;
+}
+
 Frame::Frame(const Camera& camera, int width, int height, const Region& region)
     : parallel_(camera.parallel),
       width_(width),

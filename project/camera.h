@@ -32,6 +32,10 @@ struct Camera {
 [[nodiscard]] Camera frame_camera(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction,
                                   const Eigen::Vector3d& up, double fov_degrees, double aspect);
 
+/// The camera moved sideways, so that the picture of a parallel view is centred on `points` (those
+/// that are finite).
+[[nodiscard]] Camera centered(const Camera& camera, std::span<const Eigen::Vector3d> points);
+
 /// A part of a picture, in pixels; (x, y) is its first pixel.
 struct Region {
   int x = 0;

@@ -1,6 +1,7 @@
 #include "project/camera.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,24 @@ TEST(Frame, RefusesWhatSeesNothing) {
   camera.eye.x() = std::nan("");
   EXPECT_THROW(Frame(camera, 4, 4), base::UsageError);
   EXPECT_THROW(Frame(looking_down_z(), 0, 4), base::UsageError);
+}
+
+// Framed for a perspective view, whose near corners are larger, a box stands beside the middle of a
+// parallel view.
+TEST(FrameCamera, ParallelViewsAreCentered) {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(3, -1, 0), Eigen::Vector3d(7, 1, 9));
+  std::vector<Eigen::Vector3d> corners = {Eigen::Vector3d::Constant(std::nan(""))};
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  Camera camera = frame_camera(box, {1, 0.8, 0.6}, Eigen::Vector3d::UnitZ(), 60, 1);
+  camera.parallel = true;
+  camera = centered(camera, corners);
+  const Frame frame(camera, 10, 10);
+  Eigen::AlignedBox3d extent;
+  for (std::size_t i = 1; i < corners.size(); ++i) extent.extend(frame.to_camera(corners[i]));
+  EXPECT_NEAR(extent.center().x(), 0, 1e-12);
+  EXPECT_NEAR(extent.center().y(), 0, 1e-12);
+  EXPECT_GT(extent.min().z(), 0);
 }
 
 TEST(FrameCamera, AllCornersAreInThePicture) {
