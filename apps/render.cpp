@@ -21,8 +21,10 @@
 #include "apps/subcommands.h"
 #include "apps/transfer_function_input.h"
 #include "base/output_file.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "base/suggest.h"
+#include "project/effects.h"
 #include "project/error_budget.h"
 #include "project/image_file.h"
 
@@ -77,9 +79,20 @@ void check_outputs(const RenderArguments& arguments) {
   if (!arguments.stats.empty()) const base::OutputFile probe(arguments.stats);
 }
 
-void print_plan(const project::Plan& plan) {
+/// How the picture is drawn and what each effect is expected to cost.
+void print_plan(const project::Scene& scene, const project::Plan& plan) {
   fmt::print("plan\n");
   for (const std::string& reason : plan.reasons) fmt::print("  {}\n", reason);
+  fmt::print("{}",
+             project::effects_table(project::planned_effects(scene, plan, base::thread_count())));
+}
+
+/// ... and what it took.
+void print_costs(const project::Scene& scene, const project::Plan& plan,
+                 const project::Stats& stats) {
+  fmt::print(
+      "what it took\n{}",
+      project::effects_table(project::planned_effects(scene, plan, base::thread_count()), &stats));
 }
 
 void limit_threads(const RenderArguments& arguments, std::optional<tbb::global_control>& control) {
@@ -130,7 +143,7 @@ Drawn draw_within(const RenderArguments& arguments, const project::Scene& scene,
                   const project::Request& request, const Checks& checks, RenderReport& report) {
   project::VerifiedImage result =
       project::render_within(scene, request, *checks.max_error, checks.pixels);
-  if (arguments.explain) print_plan(result.plan);
+  if (arguments.explain) print_plan(scene, result.plan);
   warn_of_plan(result.plan);
   report.stats = result.stats;
   report.verification = result.verification;
@@ -147,7 +160,7 @@ Drawn draw(const RenderArguments& arguments, const project::Scene& scene,
            const project::Request& request, const Checks& checks, RenderReport& report) {
   if (checks.max_error) return draw_within(arguments, scene, request, checks, report);
   Drawn drawn{project::plan(scene, request), {}};
-  if (arguments.explain) print_plan(drawn.plan);
+  if (arguments.explain) print_plan(scene, drawn.plan);
   warn_of_plan(drawn.plan);
   drawn.image = project::render(scene, drawn.plan, report.stats);
   if (checks.pixels > 0) {
@@ -176,6 +189,7 @@ void render(const RenderArguments& arguments) {
   RenderReport report;
   report.import = imported.report;
   const Drawn drawn = draw(arguments, scene, request, checks, report);
+  if (arguments.explain) print_costs(scene, drawn.plan, report.stats);
   if (report.verification) {
     fmt::print(
         stderr,

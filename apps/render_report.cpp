@@ -4,8 +4,28 @@
 #include <nlohmann/json.hpp>
 
 #include "base/stopwatch.h"
+#include "project/effects.h"
 
 namespace tetraglass::apps {
+
+namespace {
+
+/// What each effect took, where it was needed.
+nlohmann::ordered_json effects_json(const project::Scene& scene, const project::Plan& plan,
+                                    const project::Stats& stats) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const project::EffectPlan& effect : project::planned_effects(scene, plan, stats.threads)) {
+    nlohmann::ordered_json entry = {{"needed", effect.needed}, {"why", effect.why}};
+    if (const auto work = stats.work.find(effect.effect); work != stats.work.end()) {
+      entry["bytes"] = work->second.bytes;
+      entry["ms"] = work->second.ms;
+    }
+    json[project::to_string(effect.effect)] = entry;
+  }
+  return json;
+}
+
+}  // namespace
 
 std::string stats_json(const project::Scene& scene, const project::Plan& plan,
                        const RenderReport& report) {
@@ -27,6 +47,7 @@ std::string stats_json(const project::Scene& scene, const project::Plan& plan,
       {"context", stats.context},
       {"integrator", project::to_string(plan.integrator)},
       {"plan", plan.reasons},
+      {"effects", effects_json(scene, plan, stats)},
       {"threads", stats.threads},
       {"peak_bytes", base::peak_bytes()}};
   if (report.verification) {

@@ -49,7 +49,7 @@ double rounding_of_floats(const Scene& scene) {
 
 std::vector<Rung> cpu_ladder(const Scene& scene, const Request& request, double max_error) {
   const double rounding = rounding_of_floats(scene);
-  const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
+  const bool blends = !is_commutative(scene);
   std::vector<Rung> ladder;
   Request exact = request;
   exact.projector = Projector::cpu;

@@ -25,27 +25,36 @@ bool needs_integral(const Scene& scene) {
   return !field_maximum && scene.mode != Mode::thickness;
 }
 
+std::string why_commutative(const Scene& scene) {
+  if (scene.mode == Mode::iso) return "the nearest of opaque surfaces is found without";
+  if (scene.mode == Mode::full) return "all light has one color: only the optical depth matters";
+  return "mode " + to_string(scene.mode) + " does not depend on it";
+}
+
 void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
   const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
-  if (!blends) {
-    if (request.sort && *request.sort != SortMethod::none) {
-      throw base::UsageError(fmt::format("mode {} needs no order: leave out --sort {}",
-                                         to_string(scene.mode), to_string(*request.sort)));
-    }
-    plan.sort = SortMethod::none;
-    plan.reasons.push_back("order: none, mode " + to_string(scene.mode) + " does not depend on it");
-    return;
+  if (!blends && request.sort && *request.sort != SortMethod::none) {
+    throw base::UsageError(fmt::format("mode {} needs no order: leave out --sort {}",
+                                       to_string(scene.mode), to_string(*request.sort)));
   }
-  if (request.sort && *request.sort != SortMethod::fragments) {
+  if (request.opaque_at && !(*request.opaque_at > 0 && *request.opaque_at <= 1)) {
+    throw base::UsageError("--opaque-at needs an opacity above 0 and at most 1");
+  }
+  const bool commutative = is_commutative(scene);
+  const bool has_it = !request.sort || *request.sort == SortMethod::fragments ||
+                      (commutative && *request.sort == SortMethod::none);
+  if (!has_it) {
     throw base::UsageError(
         "the cpu projector has one order only, exact at every pixel; leave out --sort " +
         to_string(*request.sort));
   }
+  if (commutative) {
+    plan.sort = SortMethod::none;
+    plan.reasons.push_back("order: none, " + why_commutative(scene));
+    return;
+  }
   plan.sort = SortMethod::fragments;
   plan.opaque_at = request.opaque_at.value_or(kOpaqueAt);
-  if (!(plan.opaque_at > 0 && plan.opaque_at <= 1)) {
-    throw base::UsageError("--opaque-at needs an opacity above 0 and at most 1");
-  }
   plan.reasons.push_back(fmt::format(
       "order: fragments, exact at every pixel; rays end at an opacity of {}", plan.opaque_at));
 }
@@ -75,7 +84,7 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
   if (request.sort == SortMethod::fragments) {
     plan.sort = commutative ? SortMethod::none : SortMethod::fragments;
     plan.reasons.push_back(commutative
-                               ? fmt::format("order: none, mode {} does not depend on it", mode)
+                               ? "order: none, " + why_commutative(scene)
                                : "order: fragments, sorted pixel by pixel: exact for every mesh");
     return;
   }
@@ -87,7 +96,7 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
   }
   plan.sort = request.sort.value_or(commutative ? SortMethod::none : SortMethod::mpvo);
   if (plan.sort == SortMethod::none) {
-    plan.reasons.push_back(fmt::format("order: none, mode {} does not depend on it", mode));
+    plan.reasons.push_back("order: none, " + why_commutative(scene));
     return;
   }
   // The layouts of 12 vertices would have to hold what the lists need in every frame.
@@ -166,6 +175,11 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
         fmt::format("the {} projector integrates exactly; tables need --projector gl",
                     to_string(plan.projector)));
   }
+  if (scene.field.min == scene.field.max && scene.mode != Mode::iso) {
+    plan.integrator = Integrator::exact;
+    plan.reasons.emplace_back("integrator: exact, no table: the field is constant");
+    return;
+  }
   if (plan.integrator == Integrator::linear) {
     plan_linear(scene, request, plan);
     return;
@@ -218,8 +232,8 @@ void check_grid(const Scene& scene, Projector projector) {
 /// Whether something is asked for that only the gl projector has.
 bool needs_gl(const Scene& scene, const Request& request) {
   const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
-  const bool sorts_cells =
-      request.sort == SortMethod::centroid || (request.sort == SortMethod::none && blends);
+  const bool sorts_cells = request.sort == SortMethod::centroid ||
+                           (request.sort == SortMethod::none && blends && !is_commutative(scene));
   const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
   return request.context.has_value() || is_any_set(request.gl) || sorts_cells || approximates ||
          request.table_n != 0 || scene.depth_cue.has_value();

@@ -1,5 +1,6 @@
 #include "project/render.h"
 
+#include "base/stopwatch.h"
 #include "project/cpu/cpu_projector.h"
 #include "project/gl/gl_projector.h"
 #include "project/reference/grid_reference.h"
@@ -44,7 +45,11 @@ Image average(const Image& samples, int n) {
 
 Image render(const Scene& scene, const Plan& plan, Stats& stats) {
   const Image samples = draw_samples(scene, plan, stats);
-  return scene.samples == 1 ? samples : average(samples, scene.samples);
+  if (scene.samples == 1) return samples;
+  const base::Stopwatch clock;
+  Image image = average(samples, scene.samples);
+  stats.add(Effect::samples, samples.rgba.size() * sizeof(float), clock.milliseconds());
+  return image;
 }
 
 }  // namespace tetraglass::project

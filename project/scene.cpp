@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "project/single_color.h"
+
 namespace tetraglass::project {
 
 Frame make_frame(const Scene& scene) {
@@ -53,8 +55,9 @@ std::string to_string(Shading shading) {
 
 bool is_commutative(const Scene& scene) {
   switch (scene.mode) {
+    // Over one color alone the rest of what is seen is that of the same color, in any order.
     case Mode::full:
-      return false;
+      return single_color(scene).has_value();
     // The nearest opaque surface wins by its depth alone; translucent ones are blended in order.
     case Mode::iso:
       return std::all_of(scene.isosurfaces.begin(), scene.isosurfaces.end(),

@@ -1,9 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
+#include "project/effect.h"
+
 namespace tetraglass::project {
+
+/// What an effect took where it can be told apart from the drawing itself.
+struct Work {
+  std::size_t bytes = 0;
+  double ms = 0;
+};
 
 /// What drawing one picture took. Times in milliseconds.
 struct Stats {
@@ -16,6 +26,15 @@ struct Stats {
   std::uint64_t cycles = 0;
   std::string context = "none";  ///< "osmesa: <renderer string>" or "none"
   int threads = 1;
+  /// Of the effects that something was stored or computed for; those of slices, grids and the
+  /// reference are not counted.
+  std::map<Effect, Work> work;
+
+  void add(Effect effect, std::size_t bytes, double ms = 0) {
+    Work& sum = work[effect];
+    sum.bytes += bytes;
+    sum.ms += ms;
+  }
 };
 
 }  // namespace tetraglass::project

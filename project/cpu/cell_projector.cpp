@@ -1,20 +1,30 @@
 #include "project/cpu/cell_projector.h"
 
-#include <atomic>
-
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "base/stopwatch.h"
-#include "project/cpu/tile_kernel.h"
 #include "project/cpu/tile_order.h"
+#include "project/single_color.h"
 
 namespace tetraglass::project::cpu {
 
+namespace {
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+}  // namespace
+
 CellProjector::CellProjector(const Scene& scene, const Plan& plan)
     : scene_(scene), plan_(plan), cells_(scene) {
+  set_up_.add(Effect::cells, bytes_of(cells_.cells) + bytes_of(cells_.numbers) +
+                                 bytes_of(cells_.point_values) + bytes_of(cells_.cell_values));
+  if (scene.modulation) set_up_.add(Effect::modulation, bytes_of(cells_.densities));
   // Halved before they are added or subtracted: numbers near the largest double must not overflow.
   const mesh::Box box = mesh::bounds(*scene.mesh);
   if (box.isEmpty()) return;
@@ -22,25 +32,42 @@ CellProjector::CellProjector(const Scene& scene, const Plan& plan)
   const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
   if (half_diagonal > 0) radius_ = half_diagonal;
   surfaces_ = surfaces(scene, cells_);
-  if (scene.shading != Shading::none) lighting_.emplace(scene, cells_);
-  if (scene.mode == Mode::thickness || scene.mode == Mode::iso) return;
-  medium_.emplace(scene.transfer_function, cells_.scale, radius_);
-  intervals_ = cell_intervals(*medium_, cells_);
+  if (scene.shading != Shading::none) set_up_light();
+  if (scene.mode != Mode::thickness && scene.mode != Mode::iso) set_up_medium();
 }
 
-Image CellProjector::draw(const Frame& frame, Stats& stats) {
+void CellProjector::set_up_light() {
   const base::Stopwatch clock;
-  Image image(frame.width(), frame.height());
-  const Projection projection(frame, radius_, middle_);
-  points_.project(*scene_.mesh, cells_, frame, projection);
-  const bool blends = scene_.mode == Mode::full || scene_.mode == Mode::iso;
-  const int tile_size = blends ? kLargestTile / 2 : kLargestTile;
-  bins_.assign(cells_, points_, frame.width(), frame.height(), tile_size);
+  lighting_.emplace(scene_, cells_);
+  set_up_.add(Effect::gradients, bytes_of(lighting_->gradients), clock.milliseconds());
+  if (scene_.lights) set_up_.add(Effect::lights, bytes_of(lighting_->sources));
+  if (scene_.mode == Mode::full) {
+    set_up_.add(Effect::materials, bytes_of(lighting_->materials));
+  }
+}
+
+void CellProjector::set_up_medium() {
+  const base::Stopwatch clock;
+  medium_.emplace(scene_.transfer_function, cells_.scale, radius_);
+  intervals_ = cell_intervals(*medium_, cells_);
+  set_up_.add(Effect::medium, bytes_of(medium_->intervals()) + bytes_of(intervals_),
+              clock.milliseconds());
+}
+
+Picture CellProjector::picture(const Frame& frame, const Projection& projection) const {
   Picture picture;
   picture.mode = scene_.mode;
   picture.mip_of = scene_.mip_of;
-  picture.tile_size = tile_size;
+  const bool blends = plan_.sort != SortMethod::none;
+  picture.tile_size = blends ? kLargestTile / 2 : kLargestTile;
   picture.opaque = static_cast<float>(1 - plan_.opaque_at);
+  if (!blends) {
+    if (const std::optional<preint::Color> color = single_color(scene_)) {
+      const Eigen::Array3f rgb = color->cast<float>();
+      picture.single_color = {rgb[0], rgb[1], rgb[2]};
+    }
+    picture.nearest_only = scene_.mode == Mode::iso;
+  }
   picture.cells = &cells_;
   picture.points = &points_;
   picture.projection = &projection;
@@ -50,34 +77,66 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   picture.intervals = intervals_;
   picture.surfaces = surfaces_;
   picture.lighting = lighting_ ? &*lighting_ : nullptr;
+  return picture;
+}
+
+Image CellProjector::draw(const Frame& frame, Stats& stats) {
+  const base::Stopwatch clock;
+  for (const auto& [effect, work] : set_up_.work) stats.add(effect, work.bytes, work.ms);
+  set_up_.work.clear();
+  Image image(frame.width(), frame.height());
+  const Projection projection(frame, radius_, middle_);
+  Picture shared = picture(frame, projection);
+  points_.project(*scene_.mesh, cells_, frame, projection);
+  bins_.assign(cells_, points_, frame.width(), frame.height(), shared.tile_size);
+  stats.add(Effect::cells, bytes_of(points_.exact) + bytes_of(points_.screen) + bins_.bytes(),
+            clock.milliseconds());
   const std::vector<ViewedLight> lights =
       lighting_ ? lighting_->view(frame, projection) : std::vector<ViewedLight>{};
-  picture.lights = lights;
-  picture.image = &image;
+  shared.lights = lights;
+  shared.image = &image;
+  const bool blends = plan_.sort != SortMethod::none;
+  const base::Stopwatch drawing;
   const std::vector<std::uint32_t> tiles = bins_.largest_first();
-  std::atomic<std::uint64_t> fragments{0};
   struct Worker {
     TileBuffers buffers;
     TileOrder order;
+    double order_ms = 0;
+    std::uint64_t fragments = 0;
   };
   tbb::enumerable_thread_specific<Worker> workers;
   tbb::parallel_for(
       std::size_t{0}, tiles.size(),
       [&](std::size_t i) {
         const std::size_t tile = tiles[i];
-        const int x = static_cast<int>(tile % bins_.tiles_x()) * tile_size;
-        const int y = static_cast<int>(tile / bins_.tiles_x()) * tile_size;
+        const int x = static_cast<int>(tile % bins_.tiles_x()) * shared.tile_size;
+        const int y = static_cast<int>(tile / bins_.tiles_x()) * shared.tile_size;
         Worker& worker = workers.local();
         std::span<const std::uint32_t> cells = bins_.cells(tile);
-        if (blends)
-          cells = worker.order.front_to_back(cells, cells_, points_, {x, y, tile_size, tile_size});
-        fragments += draw_tile(picture, x, y, cells, worker.buffers).fragments;
+        if (blends) {
+          const base::Stopwatch ordering;
+          cells = worker.order.front_to_back(cells, cells_, points_,
+                                             {x, y, shared.tile_size, shared.tile_size});
+          worker.order_ms += ordering.milliseconds();
+        }
+        worker.fragments += draw_tile(shared, x, y, cells, worker.buffers).fragments;
       },
       tbb::simple_partitioner());
-  stats.fragments += fragments;
-  if (blends) stats.sort_method = to_string(plan_.sort);
-  stats.project_ms += clock.milliseconds();
+  double order_ms = 0;
+  for (const Worker& worker : workers) {
+    stats.fragments += worker.fragments;
+    if (blends) stats.add(Effect::order, worker.order.bytes() + worker.buffers.order_bytes());
+    order_ms += worker.order_ms / static_cast<double>(workers.size());
+    if (projection.perspective) stats.add(Effect::rays, worker.buffers.ray_bytes());
+    if (!scene_.clip.empty()) stats.add(Effect::clipping, worker.buffers.clip_bytes());
+  }
+  if (blends) {
+    stats.add(Effect::order, 0, order_ms);
+    stats.sort_method = to_string(plan_.sort);
+  }
+  stats.add(Effect::segments, 0, drawing.milliseconds() - order_ms);
   stats.threads = tbb::this_task_arena::max_concurrency();
+  stats.project_ms += clock.milliseconds();
   return image;
 }
 

@@ -9,6 +9,7 @@
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
 #include "project/cpu/tile_bins.h"
+#include "project/cpu/tile_kernel.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
 #include "project/plan.h"
@@ -34,6 +35,10 @@ class CellProjector {
   [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
 
  private:
+  void set_up_light();
+  void set_up_medium();
+  [[nodiscard]] Picture picture(const Frame& frame, const Projection& projection) const;
+
   const Scene& scene_;
   Plan plan_;
   DrawnCells cells_;
@@ -43,6 +48,7 @@ class CellProjector {
   std::vector<IntervalRange> intervals_;
   std::vector<Surface> surfaces_;
   std::optional<Lighting> lighting_;
+  Stats set_up_;  // what all views have in common took, until it is told
   ViewPoints points_;
   TileBins bins_;
 };

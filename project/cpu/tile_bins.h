@@ -25,6 +25,10 @@ class TileBins {
   void assign(DrawnCells& cells, const ViewPoints& points, int width, int height, int tile_size);
 
   [[nodiscard]] std::size_t tiles() const { return tiles_x_ * tiles_y_; }
+  [[nodiscard]] std::size_t bytes() const {
+    return sizeof(std::uint32_t) * (counts_.size() + entries_.size()) +
+           sizeof(std::size_t) * starts_.size();
+  }
   [[nodiscard]] std::size_t tiles_x() const { return tiles_x_; }
   [[nodiscard]] std::span<const std::uint32_t> cells(std::size_t tile) const {
     return std::span(entries_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);

@@ -28,9 +28,8 @@ struct TileBuffers::Contents {
   static constexpr std::size_t kPixels = std::size_t{kLargestTile} * kLargestTile;
   hwy::AlignedFreeUniquePtr<float[]> accumulators =
       hwy::AllocateAligned<float>(4 * kPixels);  // see BlockSums
-  hwy::AlignedFreeUniquePtr<float[]> stretch = hwy::AllocateAligned<float>(kPixels);
-
-  hwy::AlignedFreeUniquePtr<float[]> clipped;  // near and far; only where there are clip planes
+  hwy::AlignedFreeUniquePtr<float[]> stretch;    // only in perspective
+  hwy::AlignedFreeUniquePtr<float[]> clipped;    // near and far; only where there are clip planes
 
   /// Room for so many floats.
   float* records(std::size_t count) {
@@ -41,7 +40,9 @@ struct TileBuffers::Contents {
     return records_.get();
   }
 
-  hwy::AlignedFreeUniquePtr<float[]> last_keys = hwy::AllocateAligned<float>(kPixels);
+  [[nodiscard]] std::size_t record_count() const { return record_count_; }
+
+  hwy::AlignedFreeUniquePtr<float[]> last_keys;  // only where there are records
 
  private:
   hwy::AlignedFreeUniquePtr<float[]> records_;
@@ -87,7 +88,7 @@ std::uint64_t rasterize(const Picture& picture, int x, int y, std::span<const st
 template <class Shader>
 TileStats shade_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                      TileBuffers::Contents& buffers) {
-  Shader shader(picture, buffers.accumulators.get());
+  Shader shader(picture, x, y, buffers.accumulators.get());
   const std::uint64_t segments = rasterize(picture, x, y, cells, buffers, shader);
   write_pixels(picture, x, y, [&](std::size_t pixel) { return shader.pixel(pixel); });
   return {segments, 0};
@@ -158,6 +159,9 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   constexpr std::size_t kWindow = 16;       // enough for nearly all blocks of meshes without cycles
   constexpr std::size_t kWider = 4;         // times, where it was not
   constexpr std::size_t kMemory = 1 << 22;  // floats of all delay lines of one pass
+  if (!buffers.last_keys) {
+    buffers.last_keys = hwy::AllocateAligned<float>(TileBuffers::Contents::kPixels);
+  }
   FrontToBack image(buffers.accumulators.get());
   const auto side = static_cast<std::size_t>(picture.tile_size);
   std::vector<std::uint16_t> blocks(side * side / kLanes);
@@ -185,8 +189,9 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   return stats;
 }
 
-TileStats blend_medium(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
-                       TileBuffers::Contents& buffers) {
+TileStats draw_medium(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
+                      TileBuffers::Contents& buffers) {
+  if (picture.single_color) return shade_tile<SingleColorShader>(picture, x, y, cells, buffers);
   if (picture.lighting == nullptr) return blend_tile<FullShader>(picture, x, y, cells, buffers);
   switch (picture.lighting->shading) {
     case Shading::single:
@@ -208,6 +213,9 @@ TileStats blend_medium(const Picture& picture, int x, int y, std::span<const std
 TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                TileBuffers::Contents& buffers) {
   if (picture.projection->perspective) {
+    if (!buffers.stretch) {
+      buffers.stretch = hwy::AllocateAligned<float>(TileBuffers::Contents::kPixels);
+    }
     fill_stretch(*picture.projection, x, y, picture.tile_size, buffers.stretch.get());
   }
   if (!picture.clip.empty()) {
@@ -228,9 +236,10 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
                  ? shade_tile<FieldMaximumShader>(picture, x, y, cells, buffers)
                  : shade_tile<ColorMaximumShader>(picture, x, y, cells, buffers);
     case Mode::full:
-      return blend_medium(picture, x, y, cells, buffers);
+      return draw_medium(picture, x, y, cells, buffers);
     case Mode::iso:
-      return blend_tile<IsoShader>(picture, x, y, cells, buffers);
+      return picture.nearest_only ? shade_tile<NearestSurfaceShader>(picture, x, y, cells, buffers)
+                                  : blend_tile<IsoShader>(picture, x, y, cells, buffers);
   }
   return {};
 }
@@ -247,6 +256,17 @@ TileBuffers::TileBuffers() : contents_(std::make_unique<Contents>()) {}
 TileBuffers::~TileBuffers() = default;
 TileBuffers::TileBuffers(TileBuffers&&) noexcept = default;
 TileBuffers& TileBuffers::operator=(TileBuffers&&) noexcept = default;
+
+std::size_t TileBuffers::ray_bytes() const {
+  return contents_->stretch ? Contents::kPixels * sizeof(float) : 0;
+}
+std::size_t TileBuffers::clip_bytes() const {
+  return contents_->clipped ? 2 * Contents::kPixels * sizeof(float) : 0;
+}
+std::size_t TileBuffers::order_bytes() const {
+  const std::size_t keys = contents_->last_keys ? Contents::kPixels : 0;
+  return (contents_->record_count() + keys) * sizeof(float);
+}
 
 TileStats draw_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                     TileBuffers& buffers) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "project/cpu/drawn_cells.h"
@@ -25,6 +27,8 @@ struct Picture {
   int tile_size = kLargestTile;
   /// Rays that let through less than this are opaque; 0: none (mode full).
   float opaque = 0;
+  std::optional<std::array<float, 3>> single_color;  ///< of all light (mode full)
+  bool nearest_only = false;                         ///< all surfaces are opaque (mode iso)
   const DrawnCells* cells = nullptr;
   const ViewPoints* points = nullptr;
   const Projection* projection = nullptr;
@@ -47,6 +51,11 @@ class TileBuffers {
   TileBuffers& operator=(TileBuffers&&) noexcept;
   TileBuffers(const TileBuffers&) = delete;
   TileBuffers& operator=(const TileBuffers&) = delete;
+
+  /// What effects took so far.
+  [[nodiscard]] std::size_t ray_bytes() const;
+  [[nodiscard]] std::size_t clip_bytes() const;
+  [[nodiscard]] std::size_t order_bytes() const;
 
   struct Contents;
   [[nodiscard]] Contents& operator*() const { return *contents_; }

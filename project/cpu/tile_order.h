@@ -21,6 +21,11 @@ class TileOrder {
                                                              const ViewPoints& points,
                                                              const Region& tile);
 
+  [[nodiscard]] std::size_t bytes() const {
+    return sizeof(float) * distances_.size() + sizeof(std::uint32_t) * cells_.size() +
+           sizeof(Entry) * (entries_.size() + half_sorted_.size());
+  }
+
  private:
   struct Entry {
     std::uint32_t key;

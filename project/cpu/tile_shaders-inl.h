@@ -29,7 +29,7 @@ class ThicknessShader {
   static constexpr bool kValues = false;
   static constexpr bool kKeys = false;
 
-  ThicknessShader(const Picture& picture, float* sums)
+  ThicknessShader(const Picture& picture, int, int, float* sums)
       : unit_(static_cast<float>(picture.projection->radius)), sums_(sums, 0) {}
 
   HWY_INLINE void prefetch(std::uint32_t) const {}
@@ -94,7 +94,8 @@ class MediumShader {
 /// int kappa c dl.
 class EmissionShader : public MediumShader {
  public:
-  EmissionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums, 0) {}
+  EmissionShader(const Picture& picture, int, int, float* sums)
+      : MediumShader(picture), sums_(sums, 0) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -131,7 +132,8 @@ class EmissionShader : public MediumShader {
 /// int kappa dl.
 class AbsorptionShader : public MediumShader {
  public:
-  AbsorptionShader(const Picture& picture, float* sums) : MediumShader(picture), sums_(sums, 0) {}
+  AbsorptionShader(const Picture& picture, int, int, float* sums)
+      : MediumShader(picture), sums_(sums, 0) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -144,18 +146,34 @@ class AbsorptionShader : public MediumShader {
     sums_.add(block, 0, depth);
   }
 
-  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
-    return {0, 0, 0, -std::expm1(-sums_.pixel(i, 0))};
-  }
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const { return {0, 0, 0, opacity(i)}; }
+
+ protected:
+  [[nodiscard]] float opacity(std::size_t i) const { return -std::expm1(-sums_.pixel(i, 0)); }
 
  private:
   BlockSums<1> sums_;
 };
 
+/// int kappa c exp(-tau) dl where c is one color: what is absorbed, in that color.
+class SingleColorShader : public AbsorptionShader {
+ public:
+  SingleColorShader(const Picture& picture, int x, int y, float* sums)
+      : AbsorptionShader(picture, x, y, sums), color_(*picture.single_color) {}
+
+  [[nodiscard]] std::array<float, 4> pixel(std::size_t i) const {
+    const float a = opacity(i);
+    return {a * color_[0], a * color_[1], a * color_[2], a};
+  }
+
+ private:
+  std::array<float, 3> color_;
+};
+
 /// The color of the largest value.
 class FieldMaximumShader : public MediumShader {
  public:
-  FieldMaximumShader(const Picture& picture, float* largest)
+  FieldMaximumShader(const Picture& picture, int, int, float* largest)
       : MediumShader(picture), largest_(largest, kNone) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
@@ -179,7 +197,7 @@ class FieldMaximumShader : public MediumShader {
 /// interval.
 class ColorMaximumShader : public MediumShader {
  public:
-  ColorMaximumShader(const Picture& picture, float* largest)
+  ColorMaximumShader(const Picture& picture, int, int, float* largest)
       : MediumShader(picture), largest_(largest, kNone) {}
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {

@@ -13,6 +13,15 @@
 
 namespace tetraglass::project::gl {
 
+/// What cells take in memory.
+struct LayoutBytes {
+  std::size_t cells = 0;
+  std::size_t order = 0;  ///< only where they are sorted
+  std::size_t gradients = 0;
+
+  [[nodiscard]] std::size_t sum() const { return cells + order + gradients; }
+};
+
 /// The cells that a scene shows, as one layout keeps them on the context and draws them.
 class CellLayout {
  public:
@@ -40,8 +49,8 @@ class CellLayout {
   /// Draws all cells with the program in use.
   virtual void draw() const = 0;
 
-  /// What the cells take on the context.
-  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// What is kept, on the context and beside it.
+  [[nodiscard]] virtual LayoutBytes bytes() const = 0;
 };
 
 /// Lays out the cells `drawn` of the scene (in the order of the mesh) as the plan has it. Throws

@@ -65,9 +65,13 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       drawn_(shown_cells(scene, normalization_.values)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       counter_(context) {
+  const LayoutBytes bytes = cells_->bytes();
+  stats.add(Effect::cells, bytes.cells);
+  if (bytes.gradients > 0) stats.add(Effect::gradients, bytes.gradients);
   make_tables(stats);
   if (reads_medium(scene, plan)) {
     medium_.emplace(context, scene.transfer_function, normalization_);
+    stats.add(Effect::medium, medium_->bytes());
   }
   if (scene.mode == Mode::iso && plan.integrator == Integrator::exact) {
     surfaces_.emplace(context, Texel::rgba32f);
@@ -101,15 +105,19 @@ void CellProjector::make_tables(Stats& stats) {
     const preint::PsiTable table = preint::psi_table(plan_.table_n);
     table_.emplace(context_, Texel::r32f, std::array<int, 3>{table.n, table.n, 0}, table.psi, true);
     stats.tables_ms += clock.milliseconds();
+    stats.add(Effect::table, sizeof(float) * table.psi.size(), clock.milliseconds());
     return;
   }
   const double low = normalization_.field_value(-1);
   const double high = normalization_.field_value(1);
   const double radius = normalization_.radius;
   const preint::TransferFunction tf = normalized(scene_.transfer_function, radius);
+  const auto n = static_cast<std::size_t>(plan_.table_n);
+  std::size_t texels = n * n;
   if (plan_.integrator == Integrator::table2d) {
     table_.emplace(table_2d(context_, scene_, plan_, low, high, tf));
   } else {
+    texels *= static_cast<std::size_t>(plan_.table_m);
     const preint::Table3D table =
         full_table(tf, low, high, longest_edge(scene_) / radius, plan_.table_n, plan_.table_m);
     table_length_ = static_cast<float>(table.max_length);
@@ -117,6 +125,7 @@ void CellProjector::make_tables(Stats& stats) {
                    table.rgba, true);
   }
   stats.tables_ms += clock.milliseconds();
+  stats.add(Effect::table, texels * texel_bytes(Texel::rgba32f), clock.milliseconds());
 }
 
 const Program& CellProjector::program(bool parallel, const std::string& pass) {
@@ -169,6 +178,7 @@ bool CellProjector::order_cells(const Frame& frame, Stats& stats) {
   stats.sort_exact = order.exact;
   stats.cycles += order.cycles;
   stats.sort_ms += clock.milliseconds();
+  stats.add(Effect::order, cells_->bytes().order, clock.milliseconds());
   return order.exact;
 }
 
@@ -256,8 +266,10 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
                         draws_opaque_surfaces(scene_), width, height);
     bind();
     place_lights(frame, view);
+    if (lights_) stats.add(Effect::lights, lights_->bytes());
     if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
       lists_.emplace(context_, width, height, most_fragments_);
+      stats.add(Effect::order, lists_->bytes());
     }
     for (int y = 0; y < frame.height(); y += height) {
       for (int x = 0; x < frame.width(); x += width) {
@@ -269,6 +281,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     context_.gl().Finish();
     context_.check("drawing cells");
   }
+  stats.add(Effect::segments, 0, clock.milliseconds());
   stats.project_ms += clock.milliseconds();
   return image;
 }

@@ -37,7 +37,7 @@ class CellProjector {
   [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
 
   /// What the cells take on the context.
-  [[nodiscard]] std::size_t bytes() const { return cells_->bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return cells_->bytes().sum(); }
 
  private:
   /// `pass`: a `#define` of FragmentLists, or empty.

@@ -34,7 +34,9 @@ class Faces12Cells final : public CellLayout {
   [[nodiscard]] bool draws_front_faces() const override { return true; }
   void set_order(const std::vector<std::uint32_t>& cells) override;
   void draw() const override;
-  [[nodiscard]] std::size_t bytes() const override { return bytes_; }
+  [[nodiscard]] LayoutBytes bytes() const override {
+    return {bytes_, sizeof(std::uint32_t) * place_.size() + sizeof(int) * firsts_.size(), 0};
+  }
 
  private:
   template <class Number>

@@ -80,6 +80,11 @@ FragmentLists::FragmentLists(const Context& context, int width, int height, std:
   context.check("making the fragment lists");
 }
 
+std::size_t FragmentLists::bytes() const {
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  return 2 * pixels * sizeof(std::uint32_t) + depths_.bytes() + lights_.bytes();
+}
+
 void FragmentLists::bind() const {
   const Functions& gl = counts_.context().gl();
   gl.BindImageTexture(kCountsImage, counts_.get(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);

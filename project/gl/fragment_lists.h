@@ -56,6 +56,7 @@ class FragmentLists {
   void resolve(const Patch& patch) const;
 
   [[nodiscard]] std::size_t most() const { return most_; }
+  [[nodiscard]] std::size_t bytes() const;
 
   /// Whether targets of this size fit.
   [[nodiscard]] bool hold(int width, int height) const {

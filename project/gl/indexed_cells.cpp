@@ -8,14 +8,15 @@ IndexedCells::IndexedCells(const Context& context, const Scene& scene, const Pla
                            const Normalization& normalization,
                            const std::vector<std::uint32_t>& drawn)
     : strip_(plan.gl.layout == Layout::strip),
+      sorted_(sorts_cells(plan)),
       count_(drawn.size()),
       mesh_(context, scene, normalization,
             scene.mode == Mode::iso && scene.shading == Shading::smooth),
       faces_(context, strip_) {
   // Without an order the cells to draw are still told by their numbers, unless all are.
-  if (sorts_cells(plan) || drawn.size() != scene.mesh->cells.size()) {
+  if (sorted_ || drawn.size() != scene.mesh->cells.size()) {
     order_.emplace(context, Texel::r32ui);
-    if (!sorts_cells(plan)) order_->upload(drawn, "cells");
+    if (!sorted_) order_->upload(drawn, "cells");
   }
 }
 
@@ -44,8 +45,10 @@ void IndexedCells::draw() const {
   faces_.draw(count_);
 }
 
-std::size_t IndexedCells::bytes() const {
-  return mesh_.bytes() + (order_ ? order_->bytes() : 0);
+LayoutBytes IndexedCells::bytes() const {
+  const std::size_t numbers = order_ ? order_->bytes() : 0;
+  const std::size_t cells = mesh_.bytes() - mesh_.gradient_bytes();
+  return {sorted_ ? cells : cells + numbers, sorted_ ? numbers : 0, mesh_.gradient_bytes()};
 }
 
 }  // namespace tetraglass::project::gl

@@ -21,10 +21,11 @@ class IndexedCells final : public CellLayout {
   [[nodiscard]] bool draws_front_faces() const override { return false; }
   void set_order(const std::vector<std::uint32_t>& cells) override;
   void draw() const override;
-  [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] LayoutBytes bytes() const override;
 
  private:
   bool strip_;
+  bool sorted_;
   std::size_t count_;
   MeshBuffers mesh_;
   std::optional<TextureBuffer> order_;  // cells to draw; without it all are drawn

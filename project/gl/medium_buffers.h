@@ -19,6 +19,8 @@ class MediumBuffers {
 
   void bind() const;
 
+  [[nodiscard]] std::size_t bytes() const { return pieces_.bytes() + index_.bytes(); }
+
  private:
   TextureBuffer pieces_;
   TextureBuffer index_;

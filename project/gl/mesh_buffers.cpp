@@ -116,7 +116,7 @@ void MeshBuffers::bind() const {
 
 std::size_t MeshBuffers::bytes() const {
   return cells_.bytes() + vertices_.bytes() + (cell_values_ ? cell_values_->bytes() : 0) +
-         (gradients_ ? gradients_->bytes() : 0);
+         gradient_bytes();
 }
 
 }  // namespace tetraglass::project::gl

@@ -21,6 +21,7 @@ class MeshBuffers {
   void bind() const;
 
   [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t gradient_bytes() const { return gradients_ ? gradients_->bytes() : 0; }
 
  private:
   TextureBuffer cells_;

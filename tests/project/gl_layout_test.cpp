@@ -264,7 +264,8 @@ TEST_P(GlLayoutTest, LayoutsTakeTheBytesOfThePaper) {
     Request request;
     request.gl = layout(kind);
     return gl::make_cell_layout(*context, wanted, plan(wanted, request), normalization, cells)
-        ->bytes();
+        ->bytes()
+        .sum();
   };
   EXPECT_EQ(bytes(Layout::faces12), 720 * cells.size());
   EXPECT_EQ(bytes(Layout::faces12_short), 456 * cells.size());

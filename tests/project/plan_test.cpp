@@ -9,14 +9,13 @@
 namespace tetraglass::project {
 namespace {
 
-using tests::constant_medium;
-
 class PlanTest : public testing::Test {
  protected:
   Scene scene(Mode mode) const {
-    return tests::make_scene(mesh_, mode, constant_medium({1, 1, 1}, 1));
+    return tests::make_scene(mesh_, mode,
+                             preint::TransferFunction({{0, {1, 1, 1}, 1}, {1, {1, 0, 0}, 1}}));
   }
-  mesh::TetMesh mesh_ = tests::unit_tetrahedron();
+  mesh::TetMesh mesh_ = tests::unit_tetrahedron([](const auto& p) { return p.x(); });
 };
 
 TEST_F(PlanTest, OnlyModesThatBlendAreSorted) {
