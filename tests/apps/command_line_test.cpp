@@ -86,7 +86,7 @@ TEST_F(CommandLine, RendersEveryModeToEveryFormat) {
     }
     EXPECT_EQ(stats["cells_skipped"]["degenerate"], 0);
     EXPECT_EQ(stats["cells_skipped"]["nan"], 0);
-    EXPECT_EQ(stats["sort"]["method"], mode == "full" || mode == "iso" ? "fragments" : "none");
+    EXPECT_EQ(stats["sort"]["method"], mode == "full" ? "fragments" : "none");
     EXPECT_EQ(stats["sort"]["exact"], true);
     EXPECT_EQ(stats["projector"], "cpu");
     EXPECT_TRUE(stats["plan"].is_array());
