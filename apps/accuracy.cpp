@@ -11,17 +11,19 @@
 #include "apps/options.h"
 #include "apps/render_arguments.h"
 #include "apps/subcommands.h"
+#include "base/errors.h"
 #include "base/output_file.h"
 #include "base/progress.h"
+#include "mesh/rectilinear_grid.h"
 
 namespace tetraglass::apps {
 namespace {
 
 // The quick form takes some half a minute for Weiler's data sets on two cores without a GPU.
 constexpr const char* kQuickSize = "240x180";
-constexpr int kQuickRounds = 3;
+constexpr project::StudyLength kQuick = {3, 40};
 constexpr const char* kFullSize = "512x384";
-constexpr int kFullRounds = 7;
+constexpr project::StudyLength kFull = {7, 3600};
 
 struct AccuracyArguments {
   RenderArguments render;
@@ -43,6 +45,16 @@ void write(const std::string& file, const std::string& text) {
   output.commit();
 }
 
+/// Slices can draw the scene beside its cells, where these are those of a grid.
+void add_grid(project::Scene& scene) {
+  const bool whole = scene.field.location == mesh::Location::point && scene.drawable.nan == 0;
+  if (!whole) return;
+  try {
+    scene.grid = mesh::rectilinear_grid(*scene.mesh);
+  } catch (const base::InputError&) {  // most meshes are none
+  }
+}
+
 void study(AccuracyArguments arguments) {
   RenderArguments& wanted = arguments.render;
   if (wanted.size.empty()) wanted.size = arguments.full ? kFullSize : kQuickSize;
@@ -51,17 +63,18 @@ void study(AccuracyArguments arguments) {
   for (const std::string& file : {arguments.output, csv}) const base::OutputFile probe(file);
 
   const mesh::Import imported = import_and_tell(wanted.input, wanted.import);
-  const project::Scene scene = make_scene(wanted, imported.mesh);
+  project::Scene scene = make_scene(wanted, imported.mesh);
+  add_grid(scene);
   const std::vector<project::StudyCase> cases = project::study_cases(scene, arguments.full);
-  const int rounds = arguments.full ? kFullRounds : kQuickRounds;
-  base::Progress progress("accuracy", cases.size() * static_cast<std::size_t>(rounds));
+  const project::StudyLength length = arguments.full ? kFull : kQuick;
+  base::Progress progress("accuracy", cases.size() * static_cast<std::size_t>(length.rounds));
   const project::Study result =
-      project::study_accuracy(scene, cases, rounds, [&] { progress.advance(); });
+      project::study_accuracy(scene, cases, length, [&] { progress.advance(); });
   const std::string description = fmt::format(
       "{} tetrahedra, field {}, mode {}, {} x {} pixels, {} view; medians of {} rounds; the "
       "reference took {:.0f} ms.",
       scene.mesh->cells.size(), scene.field.name, to_string(scene.mode), scene.width, scene.height,
-      scene.camera.parallel ? "parallel" : "perspective", rounds, result.reference_ms);
+      scene.camera.parallel ? "parallel" : "perspective", result.rounds, result.reference_ms);
   write(arguments.output, accuracy_html(result, "What accuracy costs: " + wanted.input, description,
                                         make_background(wanted, scene.mode)));
   write(csv, accuracy_csv(result));
@@ -83,11 +96,11 @@ void add_accuracy(CLI::App& program) {
   app->add_option("-o,--output", arguments->output,
                   "The page, self-contained; its numbers go to a .csv beside it")
       ->required();
-  const std::string quick_form =
-      fmt::format("{} pixels, {} rounds: under a minute (default)", kQuickSize, kQuickRounds);
+  const std::string quick_form = fmt::format("{} pixels, up to {} rounds: about a minute (default)",
+                                             kQuickSize, kQuick.rounds);
   auto* quick = app->add_flag("--quick", quick_form);
   app->add_flag("--full", arguments->full,
-                fmt::format("{} pixels, {} rounds, more tables", kFullSize, kFullRounds))
+                fmt::format("{} pixels, {} rounds, more tables", kFullSize, kFull.rounds))
       ->excludes(quick);
   add_scene_options(app, arguments->render);
   add_camera_options(app, arguments->render);

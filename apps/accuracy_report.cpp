@@ -127,7 +127,8 @@ std::vector<const StudyPoint*> drawn(const Study& study) {
 std::string color_of(const std::string& knob) {
   static const std::map<std::string, std::string> kColors = {
       {"projector", "#222222"}, {"opaque at", "#7a7a7a"}, {"integrator", "#0b62c4"},
-      {"order", "#c4410b"},     {"layout", "#0b8a3d"},    {"target", "#9a0bc4"}};
+      {"order", "#c4410b"},     {"layout", "#0b8a3d"},    {"target", "#9a0bc4"},
+      {"shading", "#00838f"},   {"slices", "#b0126a"}};
   const auto found = kColors.find(knob);
   return found == kColors.end() ? "#b08a00" : found->second;
 }
@@ -151,6 +152,24 @@ std::string grid_lines(const Axis& x, const Axis& y) {
   return svg;
 }
 
+/// Through the points that come nearest to one of the references in their time.
+std::string front_line(const std::vector<const StudyPoint*>& points, bool of_grid, const Axis& x,
+                       const Axis& y) {
+  std::vector<const StudyPoint*> front;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(front),
+               [&](const StudyPoint* point) {
+                 return point->on_front && draws_grid(point->what) == of_grid;
+               });
+  std::sort(front.begin(), front.end(),
+            [](const StudyPoint* a, const StudyPoint* b) { return a->frame_ms < b->frame_ms; });
+  std::string line;
+  for (const StudyPoint* point : front) {
+    line += fmt::format("{:.1f},{:.1f} ", x.at(std::max(point->frame_ms, 1e-3)),
+                        y.at(shown_error(*point)));
+  }
+  return fmt::format("<polyline class='front{}' points='{}'/>\n", of_grid ? " of-grid" : "", line);
+}
+
 std::string diagram(const Study& study) {
   const std::vector<const StudyPoint*> points = drawn(study);
   double least = points.front()->frame_ms;
@@ -164,16 +183,7 @@ std::string diagram(const Study& study) {
   const Axis x(std::max(least, 1e-3), std::max(most, 1e-3), 80, 940);
   const Axis y(kLeastError, worst, 480, 20);
   std::string svg = "<svg viewBox='0 0 1120 520' role='img'>\n" + grid_lines(x, y);
-  std::vector<const StudyPoint*> front;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(front),
-               [](const StudyPoint* point) { return point->on_front; });
-  std::sort(front.begin(), front.end(),
-            [](const StudyPoint* a, const StudyPoint* b) { return a->frame_ms < b->frame_ms; });
-  std::string line;
-  for (const StudyPoint* point : front) {
-    line += fmt::format("{:.1f},{:.1f} ", x.at(point->frame_ms), y.at(shown_error(*point)));
-  }
-  svg += "<polyline class='front' points='" + line + "'/>\n";
+  for (const bool of_grid : {false, true}) svg += front_line(points, of_grid, x, y);
   for (const StudyPoint* point : points) {
     const double px = x.at(std::max(point->frame_ms, 1e-3));
     const double py = y.at(shown_error(*point));
@@ -223,7 +233,7 @@ std::string pictures(const Study& study, const project::Background& background) 
     html += "<div class='pair'>" +
             figure(scratch, point.image, background,
                    fmt::format("{}, {:.1f} ms", point.what.name, point.frame_ms)) +
-            figure(scratch, difference_image(point.image, study.reference, point.error), {},
+            figure(scratch, difference_image(point.image, study.judge(point), point.error), {},
                    point.error.max > 0 ? fmt::format("difference; white is {:.2g}", point.error.max)
                                        : "no difference") +
             "</div>\n";
@@ -234,7 +244,8 @@ std::string pictures(const Study& study, const project::Background& background) 
 constexpr const char* kStyle =
     "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:1160px;color:#222}"
     "svg{width:100%;font:12px system-ui,sans-serif}.grid{stroke:#e2e2e2}"
-    ".front{fill:none;stroke:#d9a400;stroke-width:2}.name{font-weight:600}"
+    ".front{fill:none;stroke:#d9a400;stroke-width:2}.of-grid{stroke-dasharray:5 "
+    "4}.name{font-weight:600}"
     "table{border-collapse:collapse}td,th{padding:2px 12px;text-align:right;border-bottom:1px "
     "solid "
     "#e2e2e2}td:nth-child(-n+2),th:nth-child(-n+2){text-align:left}"
@@ -253,14 +264,18 @@ std::string accuracy_html(const Study& study, const std::string& title,
     knobs += fmt::format("<b style='color:{}'>{}</b> ", color_of(point.what.knob),
                          escaped(point.what.knob));
   }
+  const char* of_grid = study.grid_reference.rgba.empty()
+                            ? ""
+                            : " Slices draw the trilinear field of the grid instead of its cells: "
+                              "they have a reference and a line (dashed) of their own.";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>{0}</title>"
       "<style>{1}</style></head><body>\n<h1>{0}</h1>\n<p>{2}</p>\n"
       "<p>Largest error of any channel against the time of a frame (medians of rounds in which the "
       "cases take turns). The line is the Pareto front: no other case is both faster and nearer to "
-      "the reference. Knobs: {3}</p>\n{4}{5}<h2>Pictures</h2>\n{6}</body></html>\n",
+      "the reference.{7} Knobs: {3}</p>\n{4}{5}<h2>Pictures</h2>\n{6}</body></html>\n",
       escaped(title), kStyle, escaped(description), knobs, diagram(study), table(study),
-      pictures(study, background));
+      pictures(study, background), of_grid);
 }
 
 std::string accuracy_csv(const Study& study) {

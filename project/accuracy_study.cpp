@@ -13,7 +13,6 @@
 #include "project/cpu/cell_projector.h"
 #include "project/gl/cell_projector.h"
 #include "project/gl/context.h"
-#include "project/reference/reference.h"
 #include "project/render.h"
 
 namespace tetraglass::project {
@@ -29,19 +28,19 @@ std::vector<StudyCase> projector_cases() {
   std::vector<StudyCase> cases;
   Request cpu;
   cpu.projector = Projector::cpu;
-  cases.push_back({"projector", "cpu", cpu});
+  cases.push_back({"projector", "cpu", cpu, {}});
   for (const double opacity : {0.9, 0.99, 0.999}) {
     cpu.opaque_at = opacity;
-    cases.push_back({"opaque at", fmt::format("cpu, rays end at {}", opacity), cpu});
+    cases.push_back({"opaque at", fmt::format("cpu, rays end at {}", opacity), cpu, {}});
   }
-  cases.push_back({"projector", "gl", of_gl()});
+  cases.push_back({"projector", "gl", of_gl(), {}});
   return cases;
 }
 
 void add_integrators(const Scene& scene, bool all, std::vector<StudyCase>& cases) {
   Request request = of_gl();
   request.integrator = Integrator::linear;
-  cases.push_back({"integrator", "gl, linear", request});
+  cases.push_back({"integrator", "gl, linear", request, {}});
   struct Size {
     int n;
     int m;
@@ -52,14 +51,14 @@ void add_integrators(const Scene& scene, bool all, std::vector<StudyCase>& cases
     request.integrator = Integrator::table3d;
     request.table_n = size.n;
     request.table_m = size.m;
-    cases.push_back({"integrator", fmt::format("gl, table3d {}x{}", size.n, size.m), request});
+    cases.push_back({"integrator", fmt::format("gl, table3d {}x{}", size.n, size.m), request, {}});
   }
   request.table_m = 0;
   for (const int n : {64, 256, 1024}) {
     request.integrator = scene.mode == Mode::full ? Integrator::psi : Integrator::table2d;
     request.table_n = n;
     cases.push_back(
-        {"integrator", fmt::format("gl, {} {}", to_string(*request.integrator), n), request});
+        {"integrator", fmt::format("gl, {} {}", to_string(*request.integrator), n), request, {}});
   }
 }
 
@@ -67,7 +66,7 @@ void add_orders(std::vector<StudyCase>& cases) {
   for (const SortMethod sort : {SortMethod::centroid, SortMethod::power, SortMethod::fragments}) {
     Request request = of_gl();
     request.sort = sort;
-    cases.push_back({"order", "gl, " + to_string(sort), request});
+    cases.push_back({"order", "gl, " + to_string(sort), request, {}});
   }
 }
 
@@ -88,7 +87,7 @@ void add_layouts(std::vector<StudyCase>& cases) {
     request.gl.layout = variant.layout;
     request.gl.edge_fix = variant.edge_fix;
     request.gl.minimum = variant.minimum;
-    cases.push_back({"layout", std::string("gl, ") + variant.name, request});
+    cases.push_back({"layout", std::string("gl, ") + variant.name, request, {}});
   }
 }
 
@@ -96,8 +95,44 @@ void add_targets(std::vector<StudyCase>& cases) {
   for (const TargetFormat target : {TargetFormat::rgba16f, TargetFormat::rgba8}) {
     Request request = of_gl();
     request.gl.target = target;
-    cases.push_back({"target", "gl, " + to_string(target), request});
+    cases.push_back({"target", "gl, " + to_string(target), request, {}});
   }
+}
+
+void add_shadings(const Scene& scene, std::vector<StudyCase>& cases) {
+  if (!is_lit_medium(scene)) return;
+  for (const Shading shading : {Shading::none, Shading::flat, Shading::smooth, Shading::single,
+                                Shading::weighted, Shading::interpolated, Shading::surface}) {
+    if (shading == scene.shading || (shading == Shading::none && scene.lights)) continue;
+    Request cpu;
+    cpu.projector = Projector::cpu;
+    cases.push_back({"shading", "cpu, " + to_string(shading), cpu, shading});
+  }
+}
+
+void add_slices(const Scene& scene, bool all, std::vector<StudyCase>& cases) {
+  if (!scene.grid) return;
+  Request request;
+  request.projector = Projector::slices;
+  const auto add = [&](const std::string& name) {
+    cases.push_back({"slices", "slices, " + name, request, {}});
+  };
+  for (const int slices : {64, 128, 256, 512, 1024}) {
+    if (!all && slices != 64 && slices != 256) continue;
+    request.slices.slices = slices;
+    for (const Classify classify : {Classify::integrated, Classify::post}) {
+      request.slices.classify = classify;
+      add(fmt::format("{} {}", to_string(classify), slices));
+    }
+  }
+  request.slices.slices = 256;
+  request.slices.classify = Classify::integrated;
+  request.slices.texels = TexelBits::bits8;
+  add("integrated 256, 8 bits");
+  request.slices.texels.reset();
+  request.slices.stack = Stack::textures;
+  request.slices.slices.reset();
+  add("integrated, 2D textures");
 }
 
 bool is_possible(const Scene& scene, const StudyCase& one) {
@@ -148,8 +183,14 @@ struct Times {
   std::vector<double> frame;
 };
 
-void draw_once(const Scene& scene, StudyPoint& point, Times& times) {
+void draw_once(const Scene& study_scene, StudyPoint& point, Times& times) {
   try {
+    std::optional<Scene> shaded;
+    if (point.what.shading) {
+      shaded = study_scene;
+      shaded->shading = *point.what.shading;
+    }
+    const Scene& scene = shaded ? *shaded : study_scene;
     const Plan how = plan(scene, point.what.request);
     base::Stopwatch clock;
     Drawing drawing(scene, how);
@@ -163,6 +204,27 @@ void draw_once(const Scene& scene, StudyPoint& point, Times& times) {
   }
 }
 
+/// The exact picture of the cells or of the grid, as a point without an error.
+void add_reference(const Scene& scene, Projector projector, Study& study) {
+  StudyPoint judge;
+  judge.what.knob = "projector";
+  judge.what.name = to_string(projector);
+  judge.what.request.projector = projector;
+  Stats stats;
+  Scene lit;
+  const bool all_along = !is_lit_medium(scene) || scene.shading == Shading::flat;
+  if (!all_along) {
+    lit = scene;
+    lit.shading = Shading::smooth;
+  }
+  const Scene& judged = all_along ? scene : lit;
+  judge.image = render(judged, plan(judged, judge.what.request), stats);
+  judge.set_up_ms = judge.frame_ms = stats.project_ms;
+  judge.error.psnr_db = std::numeric_limits<double>::infinity();
+  judge.error.pixels = judge.image.rgba.size() / 4;
+  study.points.push_back(std::move(judge));
+}
+
 }  // namespace
 
 std::vector<StudyCase> study_cases(const Scene& scene, bool all) {
@@ -171,6 +233,8 @@ std::vector<StudyCase> study_cases(const Scene& scene, bool all) {
   add_orders(cases);
   add_layouts(cases);
   add_targets(cases);
+  add_shadings(scene, cases);
+  add_slices(scene, all, cases);
   std::erase_if(cases, [&](const StudyCase& one) { return !is_possible(scene, one); });
   return cases;
 }
@@ -181,7 +245,9 @@ void mark_front(std::vector<StudyPoint>& points) {
   for (StudyPoint& point : points) {
     point.on_front =
         point.failure.empty() && std::none_of(points.begin(), points.end(), [&](const auto& other) {
-          if (!other.failure.empty()) return false;
+          if (!other.failure.empty() || draws_grid(other.what) != draws_grid(point.what)) {
+            return false;
+          }
           const bool no_worse = other.frame_ms <= point.frame_ms && error(other) <= error(point);
           const bool better = other.frame_ms < point.frame_ms || error(other) < error(point);
           return no_worse && better;
@@ -189,38 +255,40 @@ void mark_front(std::vector<StudyPoint>& points) {
   }
 }
 
-Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases, int rounds,
-                     const std::function<void()>& step) {
+Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases,
+                     const StudyLength& length, const std::function<void()>& step) {
   Study study;
-  Stats stats;
-  study.reference = render_reference(scene, stats);
-  study.reference_ms = stats.project_ms;
+  study.points.reserve(cases.size() + 2);
+  add_reference(scene, Projector::reference, study);
+  study.reference = study.points.back().image;
+  study.reference_ms = study.points.back().frame_ms;
+  if (std::any_of(cases.begin(), cases.end(), [](const auto& one) { return draws_grid(one); })) {
+    add_reference(scene, Projector::grid_reference, study);
+    study.grid_reference = study.points.back().image;
+  }
+  const std::size_t references = study.points.size();
   for (const StudyCase& one : cases) {
     study.points.emplace_back();
     study.points.back().what = one;
   }
   std::vector<Times> times(cases.size());
-  for (int round = 0; round < rounds; ++round) {
+  const base::Stopwatch clock;
+  for (; study.rounds < length.rounds; ++study.rounds) {
+    const double seconds = clock.milliseconds() * 1e-3;
+    if (study.rounds > 0 && seconds * (study.rounds + 1) / study.rounds > length.seconds) break;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (study.points[i].failure.empty()) draw_once(scene, study.points[i], times[i]);
+      StudyPoint& point = study.points[references + i];
+      if (point.failure.empty()) draw_once(scene, point, times[i]);
       step();
     }
   }
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    StudyPoint& point = study.points[i];
+    StudyPoint& point = study.points[references + i];
     if (!point.failure.empty()) continue;
     point.set_up_ms = median(times[i].set_up);
     point.frame_ms = median(times[i].frame);
-    point.error = compare(point.image, study.reference);
+    point.error = compare(point.image, study.judge(point));
   }
-  StudyPoint judge;
-  judge.what = {"projector", "reference", {}};
-  judge.what.request.projector = Projector::reference;
-  judge.set_up_ms = judge.frame_ms = study.reference_ms;
-  judge.error.psnr_db = std::numeric_limits<double>::infinity();
-  judge.error.pixels = study.reference.rgba.size() / 4;
-  judge.image = study.reference;
-  study.points.push_back(std::move(judge));
   mark_front(study.points);
   return study;
 }

@@ -1,6 +1,8 @@
 #include "project/accuracy_study.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -75,7 +77,7 @@ TEST(AccuracyStudy, ErrorsAreThoseOfTheWay) {
            one.name != "gl, rgba8";
   });
   std::size_t steps = 0;
-  const Study study = study_accuracy(scene, cases, 2, [&] { ++steps; });
+  const Study study = study_accuracy(scene, cases, {2, 1e9}, [&] { ++steps; });
   EXPECT_EQ(steps, 2 * cases.size());
   ASSERT_EQ(study.points.size(), cases.size() + 1);
   const auto error = [&](const std::string& name) {
@@ -94,6 +96,54 @@ TEST(AccuracyStudy, ErrorsAreThoseOfTheWay) {
   EXPECT_GT(error("gl, rgba8"), 1e-3);
   EXPECT_TRUE(std::any_of(study.points.begin(), study.points.end(),
                           [](const StudyPoint& one) { return one.on_front; }));
+}
+
+TEST(AccuracyStudy, SlicesAreJudgedByTheGridTheyDraw) {
+  const mesh::TetMesh mesh =
+      tests::box({0, 0, 0}, {1, 1, 1}, 8, 8, 8, [](const Eigen::Vector3d& p) {
+        return 0.5 + 0.5 * std::sin(6 * p.x() + 4 * p.y()) * std::cos(5 * p.z());
+      });
+  Scene scene = scene_of(mesh, Mode::full);
+  EXPECT_TRUE(std::none_of(study_cases(scene, true).begin(), study_cases(scene, true).end(),
+                           [](const StudyCase& one) { return draws_grid(one); }));
+  scene.grid = mesh::rectilinear_grid(mesh);
+  std::vector<StudyCase> cases = study_cases(scene, false);
+  std::erase_if(cases, [](const StudyCase& one) { return !draws_grid(one) && one.name != "cpu"; });
+  const Study study = study_accuracy(scene, cases, {1, 1e9}, [] {});
+  ASSERT_FALSE(study.grid_reference.rgba.empty());
+  EXPECT_GT(compare(study.reference, study.grid_reference).max, 1e-3) << "they are other fields";
+  std::map<std::string, double> errors;
+  for (const StudyPoint& one : study.points) errors[one.what.name] = one.error.max;
+  EXPECT_EQ(errors.at("grid-reference"), 0);
+  EXPECT_LT(errors.at("slices, integrated 256"), 1e-3);
+  EXPECT_LT(errors.at("slices, integrated 256"), errors.at("slices, integrated 64"));
+  EXPECT_LT(errors.at("cpu"), 1e-4);
+}
+
+TEST(AccuracyStudy, ShadingsAreJudgedByLightAtEveryPoint) {
+  const mesh::TetMesh mesh = ball();
+  Scene scene = scene_of(mesh, Mode::full);
+  scene.shading = Shading::single;
+  std::vector<StudyCase> cases = study_cases(scene, false);
+  std::erase_if(cases,
+                [](const StudyCase& one) { return one.name != "cpu" && one.knob != "shading"; });
+  ASSERT_EQ(cases.size(), 7U);
+  const Study study = study_accuracy(scene, cases, {1, 1e9}, [] {});
+  std::map<std::string, double> errors;
+  for (const StudyPoint& one : study.points) errors[one.what.name] = one.error.rms;
+  for (const char* quick : {"cpu", "cpu, weighted", "cpu, interpolated"}) {
+    EXPECT_LT(errors.at("cpu, smooth"), errors.at(quick));
+    EXPECT_LT(errors.at(quick), errors.at("cpu, none"));
+  }
+}
+
+TEST(AccuracyStudy, KeepsToItsTime) {
+  const mesh::TetMesh mesh = ball();
+  const Scene scene = scene_of(mesh, Mode::thickness);
+  std::vector<StudyCase> cases = study_cases(scene, false);
+  cases.resize(1);
+  EXPECT_EQ(study_accuracy(scene, cases, {5, 0}, [] {}).rounds, 1);
+  EXPECT_EQ(study_accuracy(scene, cases, {5, 1e9}, [] {}).rounds, 5);
 }
 
 }  // namespace

@@ -113,7 +113,9 @@ TEST(FragmentLists, AreExactForCyclesAndOverlaps) {
 // and only these.
 TEST(FragmentLists, AreForCyclesByDefault) {
   const mesh::TetMesh mesh = mesh::make_sample("cycle");
-  Scene scene = tests::make_scene(mesh, Mode::full, tests::constant_medium({1, 0.5, 0.2}, 2), 64);
+  Scene scene = tests::make_scene(
+      mesh, Mode::full, preint::TransferFunction({{0, {1, 0.5, 0.2}, 2}, {1, {0.2, 0.5, 1}, 3}}),
+      64);
   const auto context = gl::Context::create(ContextKind::osmesa);
   Request request;
   request.projector = Projector::gl;
