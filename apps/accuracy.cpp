@@ -21,7 +21,7 @@ namespace {
 
 // The quick form takes some half a minute for Weiler's data sets on two cores without a GPU.
 constexpr const char* kQuickSize = "240x180";
-constexpr project::StudyLength kQuick = {3, 40};
+constexpr project::StudyLength kQuick = {3, 45};
 constexpr const char* kFullSize = "512x384";
 constexpr project::StudyLength kFull = {7, 3600};
 
@@ -96,8 +96,9 @@ void add_accuracy(CLI::App& program) {
   app->add_option("-o,--output", arguments->output,
                   "The page, self-contained; its numbers go to a .csv beside it")
       ->required();
-  const std::string quick_form = fmt::format("{} pixels, up to {} rounds: about a minute (default)",
-                                             kQuickSize, kQuick.rounds);
+  const std::string quick_form =
+      fmt::format("{} pixels, up to {} rounds, what {} s suffice for (default)", kQuickSize,
+                  kQuick.rounds, kQuick.seconds);
   auto* quick = app->add_flag("--quick", quick_form);
   app->add_flag("--full", arguments->full,
                 fmt::format("{} pixels, {} rounds, more tables", kFullSize, kFull.rounds))

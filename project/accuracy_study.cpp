@@ -229,12 +229,13 @@ void add_reference(const Scene& scene, Projector projector, Study& study) {
 
 std::vector<StudyCase> study_cases(const Scene& scene, bool all) {
   std::vector<StudyCase> cases = projector_cases();
+  // The cheap ones first: time may be short.
+  add_slices(scene, all, cases);
+  add_shadings(scene, cases);
   add_integrators(scene, all, cases);
   add_orders(cases);
   add_layouts(cases);
   add_targets(cases);
-  add_shadings(scene, cases);
-  add_slices(scene, all, cases);
   std::erase_if(cases, [&](const StudyCase& one) { return !is_possible(scene, one); });
   return cases;
 }
@@ -257,6 +258,8 @@ void mark_front(std::vector<StudyPoint>& points) {
 
 Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases,
                      const StudyLength& length, const std::function<void()>& step) {
+  const base::Stopwatch clock;
+  const auto is_over = [&] { return clock.milliseconds() > 1e3 * length.seconds; };
   Study study;
   study.points.reserve(cases.size() + 2);
   add_reference(scene, Projector::reference, study);
@@ -272,13 +275,15 @@ Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases,
     study.points.back().what = one;
   }
   std::vector<Times> times(cases.size());
-  const base::Stopwatch clock;
-  for (; study.rounds < length.rounds; ++study.rounds) {
-    const double seconds = clock.milliseconds() * 1e-3;
-    if (study.rounds > 0 && seconds * (study.rounds + 1) / study.rounds > length.seconds) break;
+  for (; study.rounds < length.rounds && (study.rounds == 0 || !is_over()); ++study.rounds) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       StudyPoint& point = study.points[references + i];
-      if (point.failure.empty()) draw_once(scene, point, times[i]);
+      if (times[i].frame.empty() && point.failure.empty() && i > 0 && is_over()) {
+        point.failure = "not drawn: the time was up";
+      }
+      if (point.failure.empty() && (times[i].frame.empty() || !is_over())) {
+        draw_once(scene, point, times[i]);
+      }
       step();
     }
   }

@@ -58,11 +58,12 @@ struct Study {
 /// How long a study may take.
 struct StudyLength {
   int rounds = 1;      ///< at most
-  double seconds = 0;  ///< no round is begun that would probably end after these; the first always
+  double seconds = 0;  ///< after these no drawing is begun, but of the first case
 };
 
 /// Draws every case in each round, in turn, so that what else the machine does meets all of them
-/// alike, and compares with the reference. `step` is called after each drawing.
+/// alike, and compares with the reference. What the time did not suffice for has a `failure` that
+/// says so. `step` is called after each drawing.
 [[nodiscard]] Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases,
                                    const StudyLength& length, const std::function<void()>& step);
 

@@ -140,9 +140,15 @@ TEST(AccuracyStudy, KeepsToItsTime) {
   const mesh::TetMesh mesh = ball();
   const Scene scene = scene_of(mesh, Mode::thickness);
   std::vector<StudyCase> cases = study_cases(scene, false);
-  cases.resize(1);
-  EXPECT_EQ(study_accuracy(scene, cases, {5, 0}, [] {}).rounds, 1);
-  EXPECT_EQ(study_accuracy(scene, cases, {5, 1e9}, [] {}).rounds, 5);
+  cases.resize(2);
+  const Study none = study_accuracy(scene, cases, {5, 0}, [] {});
+  EXPECT_EQ(none.rounds, 1);
+  EXPECT_EQ(none.points[1].failure, "");
+  EXPECT_NE(none.points[2].failure, "") << "the time was up";
+  EXPECT_FALSE(none.points[2].on_front);
+  const Study all = study_accuracy(scene, cases, {5, 1e9}, [] {});
+  EXPECT_EQ(all.rounds, 5);
+  EXPECT_EQ(all.points[2].failure, "");
 }
 
 }  // namespace
