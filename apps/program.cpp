@@ -106,6 +106,7 @@ int run(int argc, char** argv) {
   add_order(program);
   add_table(program);
   add_accuracy(program);
+  add_view(program);
   try {
     program.parse(argc, argv);
     return 0;

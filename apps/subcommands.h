@@ -16,5 +16,6 @@ void add_compare(CLI::App& program);
 void add_order(CLI::App& program);
 void add_table(CLI::App& program);
 void add_accuracy(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace tetraglass::apps

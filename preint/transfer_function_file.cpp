@@ -1,8 +1,13 @@
+#include "preint/transfer_function_file.h"
+
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "base/errors.h"
 #include "base/json_file.h"
-#include "preint/transfer_function.h"
+#include "base/output_file.h"
 
 namespace tetraglass::preint {
 namespace {
@@ -39,6 +44,29 @@ TransferFunction read_transfer_function(const std::string& file) {
   } catch (const base::InputError& error) {
     throw base::ReadError(file, error.what());
   }
+}
+
+void write_transfer_function(const TransferFunction& tf, const std::string& file) {
+  const Material usual;
+  std::string text = "{\"points\": [";
+  std::string separator = "\n";
+  for (const ControlPoint& point : tf.points()) {
+    text +=
+        fmt::format("{}  {{\"value\": {}, \"color\": [{}, {}, {}], \"extinction\": {}", separator,
+                    point.value, point.color[0], point.color[1], point.color[2], point.extinction);
+    const auto coefficient = [&](const char* key, double value, double default_value) {
+      if (value != default_value) text += fmt::format(", \"{}\": {}", key, value);
+    };
+    coefficient("ambient", point.material.ambient, usual.ambient);
+    coefficient("diffuse", point.material.diffuse, usual.diffuse);
+    coefficient("specular", point.material.specular, usual.specular);
+    coefficient("shininess", point.material.shininess, usual.shininess);
+    text += "}";
+    separator = ",\n";
+  }
+  base::OutputFile output(file);
+  output.write(text + "\n]}\n");
+  output.commit();
 }
 
 }  // namespace tetraglass::preint

@@ -52,8 +52,7 @@ float texel_centre(float x, float n) { return (clamp(x, 0.0, 1.0) * (n - 1) + 0.
 #include "segment_by_planes.glsl"
 #endif
 
-#if defined(CLIP_PLANES) || defined(RAY_ENDS)
-#define CLIPPED
+#ifdef CLIP_PLANES
 #include "clip.glsl"
 #endif
 
@@ -178,12 +177,9 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
 
 void main() {
   vec2 position = gl_FragCoord.xy + tile_corner;
-#ifdef RAY_ENDS
-  if (ray_end() <= kNotWanted) discard;
-#endif
   Segment seg;
   if (!segment(position, seg)) discard;
-#ifdef CLIPPED
+#ifdef CLIP_PLANES
   if (!clip(position, seg)) discard;
 #endif
 #ifdef COUNT_FRAGMENTS

@@ -1,3 +1,5 @@
+#include "preint/transfer_function_file.h"
+
 #include <filesystem>
 #include <fstream>
 
@@ -36,6 +38,26 @@ class TransferFunctionFile : public testing::Test {
                                   testing::UnitTest::GetInstance()->current_test_info()->name();
   std::string file_ = (folder_ / "tf.json").string();
 };
+
+TEST_F(TransferFunctionFile, WhatIsWrittenReadsBackToTheLastBit) {
+  const TransferFunction tf({{-1.0 / 3, {0.1, 2.0 / 3, 1e-17}, 1e300},
+                             {0, {0, 0.5, 1}, 0, {0.25, 0.1 + 0.2, 0, 1e3}},
+                             {0, {1, 1, 1}, 0.7, {}}});
+  write_transfer_function(tf, file_);
+  const TransferFunction again = read_transfer_function(file_);
+  ASSERT_EQ(again.points().size(), tf.points().size());
+  for (std::size_t i = 0; i < tf.points().size(); ++i) {
+    const ControlPoint& a = tf.points()[i];
+    const ControlPoint& b = again.points()[i];
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_TRUE((a.color == b.color).all());
+    EXPECT_EQ(a.extinction, b.extinction);
+    EXPECT_EQ(a.material.ambient, b.material.ambient);
+    EXPECT_EQ(a.material.diffuse, b.material.diffuse);
+    EXPECT_EQ(a.material.specular, b.material.specular);
+    EXPECT_EQ(a.material.shininess, b.material.shininess);
+  }
+}
 
 TEST_F(TransferFunctionFile, ReadsPoints) {
   const TransferFunction tf = read(

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "apps/render_arguments.h"
+#include "apps/view/camera_motion.h"
+#include "apps/view/command_text.h"
+#include "apps/view/drawing.h"
+#include "apps/view/pacing.h"
+#include "apps/view/transfer_function_editor.h"
+
+namespace tetraglass::apps::view {
+
+/// As --mode lists them.
+[[nodiscard]] std::span<const std::string_view> mode_names();
+
+struct CopiedCommand {
+  std::string line;
+  std::vector<std::string> files;
+};
+
+/// What the window shows, apart from how it is shown: the state of the view, which pictures have to
+/// be drawn for it, and what is written to files.
+class Viewer {
+ public:
+  /// `typed`: the options that `arguments` were made of.
+  Viewer(RenderArguments arguments, std::vector<TypedOption> typed);
+
+  /// The time of what follows, in milliseconds on any clock.
+  void tick(double now_ms) { now_ms_ = now_ms; }
+
+  void resize(int width, int height);
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  /// As in camera_motion.h, of the picture; nothing before there is a camera.
+  void orbit(const Eigen::Vector2d& drag);
+  void pan(const Eigen::Vector2d& drag);
+  void zoom(double factor, const Eigen::Vector2d& place);
+  void set_parallel(bool parallel);
+  /// All of the mesh, from where it is seen now or from a direction.
+  void frame();
+  void look_from(const Eigen::Vector3d& direction);
+  [[nodiscard]] const std::optional<project::Camera>& camera() const { return camera_; }
+
+  /// Another file, by its defaults.
+  void open(const std::string& file);
+  [[nodiscard]] const RenderArguments& arguments() const { return arguments_; }
+  /// To change what is drawn, but not what is read.
+  [[nodiscard]] RenderArguments& change_scene();
+  /// Another field, by its own range.
+  void set_field(const std::string& field);
+  /// A preset or a file; what was edited can be had back by undoing.
+  void set_transfer_function(const std::string& name);
+  /// Its changes are drawn after `apply_edit`.
+  [[nodiscard]] TransferFunctionEditor& editor() { return editor_; }
+  void apply_edit();
+  void undo();
+  void redo();
+  /// With the options that belong to it at their defaults.
+  void set_mode(const std::string& mode);
+  /// As --mode lists them, round and round.
+  void next_mode();
+  void set_time(const std::string& time);
+  void set_projector(const std::string& projector);
+
+  /// What to draw next.
+  [[nodiscard]] std::optional<DrawRequest> next_request();
+  /// What came of it.
+  void accept(std::unique_ptr<Drawn> drawn);
+  /// How long until there may be something to draw though nothing changes.
+  [[nodiscard]] std::optional<double> wait_ms() const { return pacing_.wait_ms(now_ms_); }
+  [[nodiscard]] bool complete() const { return pacing_.complete() && error_.empty(); }
+
+  /// Null before the first one.
+  [[nodiscard]] const Drawn* picture() const { return picture_.get(); }
+  /// Why the last picture could not be drawn; empty where it could.
+  [[nodiscard]] const std::string& error() const { return error_; }
+  [[nodiscard]] const SceneFacts* facts() const { return facts_.get(); }
+
+  /// Checks so many random pixels of the picture in full.
+  void verify(int pixels);
+  [[nodiscard]] const std::optional<project::Verification>& verified() const { return verified_; }
+
+  /// The words after "tetraglass" that draw this picture to a file.
+  [[nodiscard]] std::vector<std::string> command(const std::string& output) const;
+
+  /// Writes the picture, complete, to a new .png in the working folder, and what its command line
+  /// refers to beside it. Returns the files. Throws WriteError.
+  [[nodiscard]] std::vector<std::string> save_picture() const;
+
+  /// The command line of this picture, and the files that it refers to, which are written to the
+  /// working folder. Throws WriteError.
+  [[nodiscard]] CopiedCommand copy_command() const;
+
+ private:
+  void view_changed();
+  void follow_transfer_function();
+  [[nodiscard]] std::vector<std::string> save_beside(const std::string& output) const;
+  void set_framing(const Framing& framing);
+
+  RenderArguments arguments_;
+  std::vector<TypedOption> typed_;
+  std::optional<project::Camera> camera_;
+  std::optional<Framing> framing_;
+  std::uint64_t framing_version_ = 1;
+  std::uint64_t mesh_version_ = 1;
+  std::uint64_t scene_version_ = 1;
+  int width_ = 0;
+  int height_ = 0;
+  double now_ms_ = 0;
+  Pacing pacing_;
+  TransferFunctionEditor editor_;
+  int verify_ = 0;
+  std::unique_ptr<Drawn> picture_;
+  std::shared_ptr<const SceneFacts> facts_;
+  std::optional<project::Verification> verified_;
+  std::string error_;
+};
+
+}  // namespace tetraglass::apps::view

@@ -1,0 +1,192 @@
+#include "apps/view/viewer.h"
+
+#include <filesystem>
+#include <semaphore>
+
+#include <gtest/gtest.h>
+
+#include "project/render.h"
+#include "tests/support/program.h"
+
+namespace tetraglass::apps::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A viewer of a small sample, and the thread that draws for it, without a window.
+class ViewerTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new tests::TemporaryFolder;
+    ASSERT_EQ(tests::run_program("sample sphere --cells 2000 -o " + file()).status, 0);
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static std::string file() { return folder_->file("sphere.vtu"); }
+  static tests::TemporaryFolder& folder() { return *folder_; }
+
+  static RenderArguments arguments() {
+    RenderArguments result;
+    result.input = file();
+    return result;
+  }
+
+  /// Draws until nothing is left to draw.
+  void finish(Viewer& viewer) {
+    for (int idle = 0; idle < 2;) {
+      viewer.tick(now_ms_ += 1000);
+      auto request = viewer.next_request();
+      if (!request) {
+        ++idle;
+        continue;
+      }
+      idle = 0;
+      drawing_.request(*std::move(request));
+      ready_.acquire();
+      viewer.accept(drawing_.take());
+    }
+  }
+
+  static project::Image rendered(const Viewer& viewer) {
+    RenderArguments made = viewer.arguments();
+    static_cast<CameraArguments&>(made) = camera_arguments(*viewer.camera());
+    const mesh::Import imported = mesh::import_mesh(made.input, made.import);
+    const project::Scene scene = make_scene(made, imported.mesh);
+    project::Stats stats;
+    return project::render(scene, project::plan(scene, make_request(made)), stats);
+  }
+
+ private:
+  static tests::TemporaryFolder* folder_;
+  double now_ms_ = 0;
+  std::binary_semaphore ready_{0};
+  Drawing drawing_{[this] { ready_.release(); }};
+};
+
+tests::TemporaryFolder* ViewerTest::folder_ = nullptr;
+
+// After whatever was done before, the picture at rest is that of render, number for number.
+TEST_F(ViewerTest, AtRestThePictureIsThatOfRender) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(90, 70);
+  finish(viewer);
+  ASSERT_TRUE(viewer.complete()) << viewer.error();
+  EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba);
+  viewer.orbit({0.1, 0.2});
+  viewer.zoom(1.3, {0.1, 0});
+  viewer.pan({0.02, 0.1});
+  finish(viewer);
+  EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba);
+  for (int i = 0; i < 6; ++i) {
+    viewer.next_mode();
+    viewer.set_parallel(i % 2 == 0);
+    finish(viewer);
+    ASSERT_TRUE(viewer.complete()) << viewer.error();
+    EXPECT_EQ(viewer.picture()->coarseness, 1);
+    EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba) << viewer.arguments().mode;
+  }
+  EXPECT_EQ(viewer.arguments().mode, "full");
+  viewer.editor().begin();
+  viewer.editor().add(0.5);
+  viewer.editor().move(0.6, 3);
+  viewer.apply_edit();
+  viewer.change_scene().opacity_scale = "0.5";
+  finish(viewer);
+  EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba);
+  viewer.undo();
+  EXPECT_FALSE(viewer.arguments().own_transfer_function);
+  viewer.redo();
+  EXPECT_TRUE(viewer.arguments().own_transfer_function);
+}
+
+TEST_F(ViewerTest, MovingPicturesAreCoarserAndSaidSo) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(90, 70);
+  viewer.tick(0);
+  const auto request = viewer.next_request();
+  ASSERT_TRUE(request);
+  EXPECT_GT(request->coarseness, 1);
+  EXPECT_FALSE(viewer.complete());
+}
+
+TEST_F(ViewerTest, WhatIsRefusedIsTold) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(90, 70);
+  finish(viewer);
+  const Drawn* before = viewer.picture();
+  viewer.change_scene().sort = "none";
+  finish(viewer);
+  EXPECT_NE(viewer.error(), "");
+  EXPECT_EQ(viewer.picture(), before) << "the last picture stays";
+  viewer.change_scene().sort = "auto";
+  finish(viewer);
+  EXPECT_EQ(viewer.error(), "");
+  EXPECT_TRUE(viewer.complete());
+}
+
+// Nothing of a file is read again until another one is opened; then its absence is told.
+TEST_F(ViewerTest, AFileThatVanishes) {
+  const std::string copy = folder().file("copy.vtu");
+  fs::copy_file(file(), copy);
+  RenderArguments of_copy = arguments();
+  of_copy.input = copy;
+  Viewer viewer(of_copy, {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  ASSERT_TRUE(viewer.complete());
+  fs::remove(copy);
+  viewer.orbit({0.1, 0});
+  viewer.next_mode();
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+  viewer.open(copy);
+  finish(viewer);
+  EXPECT_NE(viewer.error().find(copy), std::string::npos) << viewer.error();
+  viewer.open(file());
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+}
+
+TEST_F(ViewerTest, NoPixelsNoPicture) {
+  Viewer viewer(arguments(), {});
+  for (const auto& [width, height] : {std::pair{0, 0}, {0, 5}, {5, 0}}) {
+    viewer.resize(width, height);
+    EXPECT_FALSE(viewer.next_request());
+  }
+  viewer.resize(1, 1);
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+}
+
+TEST_F(ViewerTest, VerifiesThePictureInFull) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  viewer.verify(50);
+  finish(viewer);
+  ASSERT_TRUE(viewer.verified());
+  EXPECT_EQ(viewer.verified()->pixels, 50U);
+  EXPECT_LT(viewer.verified()->max_error, 1e-5);
+  viewer.orbit({0.1, 0});
+  EXPECT_FALSE(viewer.verified()) << "of another picture";
+}
+
+TEST_F(ViewerTest, FramesTheMeshFromASide) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(60, 60);
+  finish(viewer);
+  viewer.look_from({0, 0, 1});
+  finish(viewer);
+  const project::Camera camera = *viewer.camera();
+  EXPECT_NEAR((camera.eye - camera.target).normalized().z(), 1, 1e-12);
+  viewer.zoom(5, {0, 0});
+  viewer.pan({1, 1});
+  viewer.frame();
+  finish(viewer);
+  EXPECT_NEAR((viewer.camera()->eye - camera.eye).norm(), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace tetraglass::apps::view

@@ -1,0 +1,247 @@
+// The real window, on a virtual display, with real mouse and key events.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "project/image_file.h"
+#include "tests/support/program.h"
+#include "tests/view/virtual_display.h"
+
+namespace tetraglass::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using project::Image;
+
+constexpr int kPictureWidth = 300;
+constexpr int kPictureHeight = 700;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The largest difference of two pictures in [0, 1], over the rows of `a`.
+double difference(const Image& a, const Image& b) {
+  double most = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      for (int c = 0; c < 3; ++c)
+        most = std::max(most, std::abs(static_cast<double>(a.pixel(x, y)[c]) - b.pixel(x, y)[c]));
+    }
+  }
+  return most;
+}
+
+constexpr double kOneOf255 = 1.0 / 255 + 1e-6;
+
+class WindowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!is_installed("Xvfb") || !is_installed("xdotool"))
+      GTEST_SKIP() << "Xvfb and xdotool are not installed (scripts/setup does it)";
+    ASSERT_EQ(
+        run_program("sample sphere --cells 3000 -o '" + folder_.file("sphere.vtu") + "'").status,
+        0);
+    display_ = std::make_unique<VirtualDisplay>();
+    ASSERT_TRUE(display_->ready());
+  }
+
+  void TearDown() override {
+    if (HasFailure()) {
+      std::cerr << "stdout: " << read_text(folder_.file("out"))
+                << "stderr: " << read_text(folder_.file("err"));
+    }
+  }
+
+  /// Starts the program and waits for its window and its first picture.
+  void open(const std::vector<std::string>& options) {
+    std::vector<std::string> words = {TETRAGLASS_PROGRAM, "view", "sphere.vtu", "--size",
+                                      fmt::format("{}x{}", kPictureWidth, kPictureHeight)};
+    words.insert(words.end(), options.begin(), options.end());
+    program_ = std::make_unique<Beside>(words, [this] {
+      ::setenv("DISPLAY", display_->name().c_str(), 1);
+      if (::chdir(folder_.file("").c_str()) != 0) ::_exit(126);
+      ::dup2(::open("out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
+      ::dup2(::open("err", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+    });
+    // Focusing a window that is not there yet, or not shown yet, fails.
+    ASSERT_TRUE(wait_until([&] {
+      return !program_->running() ||
+             xdotool("search --onlyvisible --name 'sphere.vtu - tetraglass' windowfocus --sync") ==
+                 0;
+    }));
+    ASSERT_TRUE(program_->running());
+  }
+
+  [[nodiscard]] int xdotool(const std::string& words) const {
+    return std::system(
+        fmt::format("DISPLAY={} timeout 30 xdotool {} >/dev/null 2>&1", display_->name(), words)
+            .c_str());
+  }
+
+  /// Presses a key and returns the line that the window prints for it, the last of `count`.
+  std::string ask(const std::string& key, std::size_t count = 1) {
+    const std::size_t before = lines_of(read_text(folder_.file("out"))).size();
+    EXPECT_EQ(xdotool("key " + key), 0);
+    std::vector<std::string> lines;
+    EXPECT_TRUE(wait_until([&] {
+      lines = lines_of(read_text(folder_.file("out")));
+      return lines.size() >= before + count || !program_->running();
+    })) << key;
+    return lines.size() >= before + count ? lines[before + count - 1] : "";
+  }
+
+  [[nodiscard]] Image picture(const std::string& file) const {
+    return project::read_image(folder_.file(file)).image;
+  }
+
+  /// The picture that the copied command line makes.
+  Image rendered(const std::string& line, const std::string& file) {
+    const std::string program = "tetraglass ";
+    EXPECT_TRUE(line.starts_with(program)) << line;
+    const std::string command =
+        fmt::format("cd '{}' && '{}' {} 2>err-of-render", folder_.file(""), TETRAGLASS_PROGRAM,
+                    line.substr(program.size()) + " >'" + file + ".out'");
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    const std::vector<std::string> made = lines_of(read_text(folder_.file(file + ".out")));
+    return made.empty() ? Image() : picture(made.front());
+  }
+
+  /// The middle of each control point in the plot: white disks in the panel, left of the picture.
+  static std::vector<Eigen::Vector2i> control_points(const Image& window) {
+    constexpr int kRadius = 3;
+    const int panel = window.width - kPictureWidth;
+    std::vector<Eigen::Vector2i> found;
+    const auto is_white = [&](int x, int y) {
+      const float* pixel = window.pixel(x, y);
+      return pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
+    };
+    for (int y = kRadius; y < window.height - kRadius; ++y) {
+      for (int x = kRadius; x < panel - kRadius; ++x) {
+        bool disk = true;
+        for (int dy = -kRadius; disk && dy <= kRadius; ++dy) {
+          for (int dx = -kRadius; disk && dx <= kRadius; ++dx)
+            disk = dx * dx + dy * dy > kRadius * kRadius || is_white(x + dx, y + dy);
+        }
+        if (disk && (found.empty() || (found.back() - Eigen::Vector2i(x, y)).norm() > 5))
+          found.emplace_back(x, y);
+      }
+    }
+    return found;
+  }
+
+  /// With real events, in steps as a hand makes them.
+  void drag(const Eigen::Vector2i& from, const Eigen::Vector2i& to) {
+    std::string words = fmt::format("mousemove {} {} mousedown 1", from.x(), from.y());
+    constexpr int kSteps = 5;
+    for (int i = 1; i <= kSteps; ++i) {
+      const Eigen::Vector2i place = from + i * (to - from) / kSteps;
+      words += fmt::format(" sleep 0.05 mousemove {} {}", place.x(), place.y());
+    }
+    EXPECT_EQ(xdotool(words + " sleep 0.05 mouseup 1"), 0);
+  }
+
+  void quit() {
+    EXPECT_EQ(xdotool("key q"), 0);
+    ASSERT_TRUE(wait_until([&] { return !program_->running(); }));
+    EXPECT_EQ(program_->exit_status(), 0);
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<VirtualDisplay> display_;
+  std::unique_ptr<Beside> program_;
+};
+
+// What is explored can be published: after editing the colors with the mouse, turning the mesh and
+// changing the mode, the saved picture is what the window shows and what the copied command draws.
+TEST_F(WindowTest, ThePictureIsThatOfTheCopiedCommandLine) {
+  ASSERT_NO_FATAL_FAILURE(open({"--range", "0.2:1.5"}));
+  const Image first = picture(ask("s"));
+  ASSERT_EQ(first.width, kPictureWidth);
+  ASSERT_EQ(first.height, kPictureHeight);
+
+  const Image window = picture(ask("F12"));
+  // The message of what was saved covers the lower left corner.
+  Image shown(kPictureWidth, kPictureHeight / 2);
+  for (int y = 0; y < shown.height; ++y) {
+    std::copy_n(window.pixel(window.width - kPictureWidth, y), 4 * kPictureWidth,
+                shown.pixel(0, y));
+  }
+  EXPECT_LE(difference(shown, first), kOneOf255);
+
+  const std::vector<Eigen::Vector2i> points = control_points(window);
+  ASSERT_GE(points.size(), 3U);
+  const Eigen::Vector2i point = points[points.size() / 2];
+  drag(point, point + Eigen::Vector2i(8, 25));
+  const Image edited = picture(ask("s", 2).empty() ? "" : "sphere-2.png");
+  EXPECT_GT(difference(edited, first), 0.02);
+  EXPECT_TRUE(fs::exists(folder_.file("sphere-2.tf.json")));
+  EXPECT_LE(difference(edited, rendered(ask("c", 2), "edited")), kOneOf255);
+
+  const Eigen::Vector2i middle(window.width - kPictureWidth / 2, kPictureHeight / 2);
+  drag(middle, middle + Eigen::Vector2i(60, 40));
+  ASSERT_EQ(xdotool("key m"), 0);
+  (void)ask("s", 2);
+  const std::string command = ask("c", 2);
+  EXPECT_NE(command.find("--mode emission"), std::string::npos) << command;
+  const Image turned = picture("sphere-4.png");
+  EXPECT_GT(difference(turned, edited), 0.02);
+  EXPECT_LE(difference(turned, rendered(command, "turned")), kOneOf255);
+
+  // Back to the preset, and in mode iso.
+  ASSERT_EQ(xdotool("key ctrl+z key m key m key m"), 0);
+  const Image surface = picture(ask("s"));
+  const std::string iso = ask("c");
+  EXPECT_NE(iso.find("--mode iso"), std::string::npos) << iso;
+  EXPECT_EQ(iso.find("--tf"), std::string::npos) << iso;
+  EXPECT_LE(difference(surface, rendered(iso, "surface")), kOneOf255);
+  quit();
+}
+
+TEST_F(WindowTest, TinyAndHiddenWindowsAndAFileThatVanishes) {
+  ASSERT_NO_FATAL_FAILURE(open({"--mode", "emission"}));
+  (void)ask("s");
+  const std::string window = "search --name 'sphere.vtu - tetraglass' ";
+  ASSERT_EQ(xdotool(window + "windowsize 1 1"), 0);
+  (void)ask("c");
+  ASSERT_EQ(xdotool(window + "windowunmap --sync windowmap --sync"), 0);
+  fs::remove(folder_.file("sphere.vtu"));
+  ASSERT_EQ(xdotool(window + "windowsize 500 400"), 0);
+  ASSERT_TRUE(wait_until([&] { return xdotool(window + "windowfocus --sync") == 0; }));
+  EXPECT_EQ(ask("F12"), "window-1.png");
+  // Until the window has its new size, pictures have the old one.
+  EXPECT_TRUE(wait_until([&] {
+    const Image seen = picture(ask("F12"));
+    return seen.width == 500 && seen.height == 400;
+  }));
+  EXPECT_TRUE(program_->running());
+  quit();
+}
+
+TEST(Window, WithoutADisplayThereIsOneLine) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.file("sphere.vtu");
+  ASSERT_EQ(run_program("sample sphere --cells 100 -o '" + mesh + "'").status, 0);
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) ::unsetenv(name);
+  const ProgramRun run = run_program("view '" + mesh + "'");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(lines_of(run.err).size(), 1U) << run.err;
+  EXPECT_NE(run.err.find("tetraglass: error: no window can be opened"), std::string::npos);
+  const ProgramRun missing = run_program("view no-such.vtu");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.err, "tetraglass: error: no-such.vtu: there is no such file\n");
+  EXPECT_EQ(run_program("view '" + mesh + "' --projector cppu").status, 2);
+}
+
+}  // namespace
+}  // namespace tetraglass::tests
