@@ -76,6 +76,12 @@ void add_camera_options(CLI::App* app, CameraArguments& a) {
 
 project::Camera make_camera(const CameraArguments& arguments, const mesh::TetMesh& mesh,
                             double aspect) {
+  return make_camera(arguments, mesh.points, mesh::bounds(mesh).center(), aspect);
+}
+
+project::Camera make_camera(const CameraArguments& arguments,
+                            std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& middle,
+                            double aspect) {
   if (!arguments.file.empty()) {
     for (const std::string* other : {&arguments.eye, &arguments.target, &arguments.up,
                                      &arguments.fov, &arguments.ortho, &arguments.view}) {
@@ -108,17 +114,16 @@ project::Camera make_camera(const CameraArguments& arguments, const mesh::TetMes
   } else if (arguments.eye.empty() && is_along_z(direction)) {
     up = Eigen::Vector3d::UnitY();  // looking straight up or down: y is up, as on a map
   }
-  project::Camera camera = project::frame_camera(mesh.points, direction, up, fov, aspect);
+  project::Camera camera = project::frame_camera(points, direction, up, fov, aspect);
   if (!arguments.eye.empty()) {
     camera.eye = parse_vector(arguments.eye, "--eye");
-    camera.target = arguments.target.empty() ? mesh::bounds(mesh).center()
-                                             : parse_vector(arguments.target, "--target");
+    camera.target = arguments.target.empty() ? middle : parse_vector(arguments.target, "--target");
     if (arguments.up.empty() && is_along_z(camera.target - camera.eye))
       camera.up = Eigen::Vector3d::UnitY();
   }
   camera.parallel = !arguments.ortho.empty();
   if (camera.parallel) camera.ortho_height = parse_number(arguments.ortho, "--ortho");
-  if (camera.parallel && arguments.eye.empty()) return project::centered(camera, mesh.points);
+  if (camera.parallel && arguments.eye.empty()) return project::centered(camera, points);
   return camera;
 }
 

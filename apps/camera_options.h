@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "mesh/tet_mesh.h"
@@ -28,5 +29,11 @@ void add_camera_options(CLI::App* app, CameraArguments& arguments);
 /// the given aspect (width / height). Throws UsageError.
 [[nodiscard]] project::Camera make_camera(const CameraArguments& arguments,
                                           const mesh::TetMesh& mesh, double aspect);
+
+/// The same, framed around these points instead of the mesh's; `middle`: what an eye without target
+/// looks at.
+[[nodiscard]] project::Camera make_camera(const CameraArguments& arguments,
+                                          std::span<const Eigen::Vector3d> points,
+                                          const Eigen::Vector3d& middle, double aspect);
 
 }  // namespace tetraglass::apps

@@ -109,7 +109,9 @@ void add_image_options(CLI::App& app, mesh::ImportOptions& options) {
 }  // namespace
 
 void add_import_options(CLI::App& app, mesh::ImportOptions& options) {
-  app.add_option("--time", options.time, "Time step: a time, 'last' (default) or 'index:N'");
+  app.add_option(
+      "--time", options.time,
+      "Time step: a time, 'last' (default) or 'index:N'; of render 'all', too: a frame each");
   app.add_flag("--refine-quadratic", options.refine_quadratic,
                "Cut quadratic cells along the points on their edges, instead of drawing their "
                "corners");

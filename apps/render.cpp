@@ -1,6 +1,5 @@
 #include "project/render.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -13,39 +12,25 @@
 #include <fmt/ranges.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "apps/figure.h"
 #include "apps/import_options.h"
 #include "apps/mesh_input.h"
 #include "apps/options.h"
-#include "apps/picture_output.h"
+#include "apps/picture_files.h"
 #include "apps/render_arguments.h"
+#include "apps/render_frames.h"
 #include "apps/render_report.h"
+#include "apps/scene_file.h"
 #include "apps/subcommands.h"
 #include "apps/transfer_function_input.h"
 #include "base/output_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "base/suggest.h"
 #include "project/effects.h"
 #include "project/error_budget.h"
-#include "project/image_file.h"
 
 namespace tetraglass::apps {
 namespace {
-
-void check_outputs(const RenderArguments& arguments) {
-  const std::vector<std::string> known = project::image_extensions();
-  for (const std::string& output : arguments.outputs) {
-    const std::size_t dot = output.rfind('.');
-    const std::string extension =
-        dot == std::string::npos ? "" : CLI::detail::to_lower(output.substr(dot));
-    if (std::find(known.begin(), known.end(), extension) == known.end()) {
-      throw base::WriteError(
-          output, "'" + extension + "' is no picture format" + base::suggestion(extension, known));
-    }
-    const base::OutputFile probe(output);
-  }
-  if (!arguments.stats.empty()) const base::OutputFile probe(arguments.stats);
-}
 
 /// How the picture is drawn and what each effect is expected to cost.
 void print_plan(const project::Scene& scene, const project::Plan& plan) {
@@ -137,23 +122,67 @@ Drawn draw(const RenderArguments& arguments, const project::Scene& scene,
   return drawn;
 }
 
-void render(const RenderArguments& arguments) {
-  std::optional<tbb::global_control> control;
-  limit_threads(arguments, control);
-  const project::Request request = make_request(arguments);
-  const Checks checks = parse_checks(arguments);
-  check_outputs(arguments);
+void write_stats(const RenderArguments& arguments, const project::Scene& scene,
+                 const project::Plan& plan, const RenderReport& report) {
+  if (arguments.stats.empty()) return;
+  base::OutputFile stats(arguments.stats);
+  stats.write(stats_json(scene, plan, report));
+  stats.commit();
+}
 
+void warn_of_cells(const project::Scene& scene) {
+  if (scene.grid || scene.drawable.degenerate + scene.drawable.nan == 0) return;
+  warn(
+      fmt::format("{} cells without volume and {} with values or coordinates that are not finite "
+                  "are not drawn",
+                  scene.drawable.degenerate, scene.drawable.nan));
+}
+
+/// --orbit and --time all.
+void render_frames(const RenderArguments& arguments, const project::Request& request) {
+  if (!arguments.max_error.empty() || !arguments.verify.empty()) {
+    throw base::UsageError(
+        "--max-error and --verify are of one picture: not with --orbit and --time all");
+  }
+  const bool times = draws_all_times(arguments);
+  if (times && !arguments.orbit.empty()) {
+    throw base::UsageError(
+        "--orbit shows one time step: give --time T with it, or --time all alone");
+  }
+  (void)orbit_frames(arguments);
+  mesh::ImportOptions options = arguments.import;
+  options.grid_only = draws_grid(arguments);
+  int steps = 1;
+  std::optional<mesh::ScalarField> values;
+  if (times) {
+    steps = count_time_steps(arguments);
+    values = values_of_all_times(arguments, steps);
+    options.time = "index:0";
+  }
+  const mesh::Import imported = import_and_tell(arguments.input, options);
+  project::Scene scene = make_scene(arguments, imported.mesh, values ? &*values : nullptr);
+  warn_of_cells(scene);
+  const project::Plan plan = project::plan(scene, request);
+  if (arguments.explain) print_plan(scene, plan);
+  warn_of_plan(plan);
+  RenderReport report;
+  report.import = imported.report;
+  FramesDrawn drawn = times ? draw_times(arguments, steps, scene, plan, report)
+                            : draw_orbit(arguments, scene, plan, report);
+  report.frame_ms = std::move(drawn.frame_ms);
+  if (arguments.explain) print_costs(scene, plan, report.stats);
+  write_stats(arguments, scene, plan, report);
+  fmt::print(stderr, "{}\n", stage_lines(report));
+  fmt::print("{}\n", fmt::join(drawn.files, "\n"));
+}
+
+void render_picture(const RenderArguments& arguments, const project::Request& request) {
+  const Checks checks = parse_checks(arguments);
   mesh::ImportOptions options = arguments.import;
   options.grid_only = draws_grid(arguments);
   const mesh::Import imported = import_and_tell(arguments.input, options);
   const project::Scene scene = make_scene(arguments, imported.mesh);
-  if (!scene.grid && scene.drawable.degenerate + scene.drawable.nan > 0) {
-    warn(
-        fmt::format("{} cells without volume and {} with values or coordinates that are not finite "
-                    "are not drawn",
-                    scene.drawable.degenerate, scene.drawable.nan));
-  }
+  warn_of_cells(scene);
   RenderReport report;
   report.import = imported.report;
   const Drawn drawn = draw(arguments, scene, request, checks, report);
@@ -166,15 +195,28 @@ void render(const RenderArguments& arguments) {
         report.verification->rms_error);
   }
   const base::Stopwatch clock;
-  write_pictures(arguments, scene.mode, drawn.image);
+  const auto [width, height] = parse_size(arguments.size, "--size");
+  const Figure figure(arguments, scene, width, height);
+  write_pictures(arguments, arguments.outputs, scene.mode,
+                 figure.around(drawn.image, scene.camera));
   report.write_ms = clock.milliseconds();
-  if (!arguments.stats.empty()) {
-    base::OutputFile stats(arguments.stats);
-    stats.write(stats_json(scene, drawn.plan, report));
-    stats.commit();
-  }
+  write_stats(arguments, scene, drawn.plan, report);
   fmt::print(stderr, "{}\n", stage_lines(report));
   fmt::print("{}\n", fmt::join(arguments.outputs, "\n"));
+}
+
+void render(const RenderArguments& arguments) {
+  std::optional<tbb::global_control> control;
+  limit_threads(arguments, control);
+  const project::Request request = make_request(arguments);
+  (void)parse_checks(arguments);
+  check_outputs(arguments);
+  if (!draws_frames(arguments)) {
+    if (!arguments.fps.empty()) throw base::UsageError("--fps is for --orbit and --time all");
+    render_picture(arguments, request);
+  } else {
+    render_frames(arguments, request);
+  }
 }
 
 }  // namespace
@@ -288,19 +330,32 @@ void add_render(CLI::App& program) {
   app->footer("usage: tetraglass render INPUT -o OUT.png|.exr|.npy [-o ...] [options]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->input,
-                  "A mesh with fields, a surface, a point cloud or a grid")
-      ->required();
+                  "A mesh with fields, a surface, a point cloud or a grid");
   app->add_option("-o,--output", arguments->outputs,
                   ".png (8 bit sRGB over the background), .exr or .npy (linear premultiplied float "
-                  "RGBA); repeatable")
-      ->required()
+                  "RGBA); repeatable. Of --orbit and --time all numbered: NAME-0000.png, or where "
+                  "%04d is; or .mp4, .webm, .gif through ffmpeg")
       ->take_all()
       ->expected(1);
   add_scene_options(app, *arguments);
+  add_figure_options(app, arguments->figure);
   add_camera_options(app, *arguments);
+  app->add_option("--orbit", arguments->orbit,
+                  "N frames, once around the up direction; numbered, or a film");
+  app->add_option("--fps", arguments->fps, "Frames per second of films. Default: 25");
   add_method_options(app, *arguments);
   add_report_options(app, *arguments);
-  app->callback([arguments] { render(*arguments); });
+  app->add_option("--scene", arguments->scene,
+                  "FILE.json of options by their names; what is typed counts before it");
+  app->add_option("--save-scene", arguments->save_scene,
+                  "Write all options that are given to a file for --scene");
+  app->callback([arguments, app] {
+    if (!arguments->scene.empty()) apply_scene_file(*app, arguments->scene);
+    if (arguments->input.empty()) throw base::UsageError("INPUT is required");
+    if (arguments->outputs.empty()) throw base::UsageError("--output is required");
+    render(*arguments);
+    if (!arguments->save_scene.empty()) save_scene_file(*app, arguments->save_scene);
+  });
 }
 
 }  // namespace tetraglass::apps

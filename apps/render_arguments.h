@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/camera_options.h"
+#include "apps/figure_arguments.h"
 #include "apps/slices_options.h"
 #include "mesh/import.h"
 #include "preint/transfer_function.h"
@@ -62,23 +63,46 @@ struct RenderArguments : CameraArguments {
   std::string threads;
   bool explain = false;
   SlicesArguments slices;
+  FigureArguments figure;
+  std::string orbit;
+  std::string fps;
+  std::string scene;
+  std::string save_scene;
   mesh::ImportOptions import;
 };
 
 /// Whether the trilinear field of a grid is drawn, not cells.
 [[nodiscard]] bool draws_grid(const RenderArguments& arguments);
 
+/// Whether a row of frames is asked for: --orbit, --time all.
+[[nodiscard]] bool draws_frames(const RenderArguments& arguments);
+
+/// Whether the frames are time steps.
+[[nodiscard]] bool draws_all_times(const RenderArguments& arguments);
+
+/// The frames of --orbit; 0 where it is not given. Throws UsageError.
+[[nodiscard]] int orbit_frames(const RenderArguments& arguments);
+
+/// What --orbit turns around: where the eye looks, if it is given, else the middle of the scene.
+[[nodiscard]] Eigen::Vector3d orbit_pivot(const RenderArguments& arguments,
+                                          const project::Scene& scene);
+
 /// What is drawn, seen how: all options of a scene but its camera's.
 void add_scene_options(CLI::App* app, RenderArguments& arguments);
 
+/// What stands around the picture and among the volume.
+void add_figure_options(CLI::App* app, FigureArguments& arguments);
 /// How it is drawn: the projector and what can be chosen of it.
 void add_method_options(CLI::App* app, RenderArguments& arguments);
 
 /// The scene that the arguments ask for, of a mesh that outlives it. Throws UsageError for values
 /// that cannot be, InputError and ReadError where the mesh or the transfer function's file lack
-/// what is needed; warns on stderr of what will not be seen.
-[[nodiscard]] project::Scene make_scene(const RenderArguments& arguments,
-                                        const mesh::TetMesh& mesh);
+/// what is needed; warns on stderr of what will not be seen. Its size is that of the picture of
+/// the volume: what Figure (figure.h) leaves of the size asked for.
+/// `values`: what the transfer function and the isosurfaces are made for, where it is not the field
+/// of the mesh (but that of all time steps).
+[[nodiscard]] project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                                        const mesh::ScalarField* values = nullptr);
 
 /// The way of drawing that the arguments force. Throws UsageError.
 [[nodiscard]] project::Request make_request(const RenderArguments& arguments);

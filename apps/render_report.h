@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/import.h"
 #include "project/plan.h"
@@ -17,6 +18,7 @@ struct RenderReport {
   project::Stats stats;
   std::optional<project::Verification> verification;
   double write_ms = 0;
+  std::vector<double> frame_ms;  ///< of each frame, where there is a row of them
 };
 
 /// The contract's JSON.

@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "apps/figure.h"
 #include "apps/mesh_input.h"
 #include "apps/options.h"
+#include "apps/orbit.h"
 #include "apps/render_arguments.h"
 #include "apps/transfer_function_input.h"
 #include "preint/transfer_function.h"
@@ -224,13 +226,62 @@ project::GlRequest make_gl_request(const RenderArguments& arguments) {
   return request;
 }
 
+/// All that should be seen in a picture that is framed by itself.
+std::vector<Eigen::Vector3d> shown_points(const RenderArguments& arguments,
+                                          const project::Scene& scene) {
+  std::vector<Eigen::Vector3d> points = scene.mesh->points;
+  if (arguments.figure.outline || arguments.figure.axes) {
+    const mesh::Box box = drawn_box(scene);
+    for (int i = 0; i < 8; ++i) points.push_back(box.corner(static_cast<mesh::Box::CornerType>(i)));
+  }
+  for (const project::OpaqueSurface& surface : scene.opaque.surfaces) {
+    points.insert(points.end(), surface.points.begin(), surface.points.end());
+  }
+  return points;
+}
+
+/// Sets up the camera of a scene whose size is known.
+void frame_scene(const RenderArguments& arguments, const Figure& figure, project::Scene& scene) {
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const Eigen::Vector3d middle = mesh::bounds(*scene.mesh).center();
+  const std::vector<Eigen::Vector3d> points = shown_points(arguments, scene);
+  scene.camera = make_camera(arguments, points, middle, aspect);
+  if (!arguments.eye.empty()) return;
+  const int frames = std::max(1, orbit_frames(arguments));
+  const Eigen::Vector3d pivot = orbit_pivot(arguments, scene);
+  if (frames > 1) {
+    scene.camera =
+        make_camera(arguments, swept_by_orbit(points, pivot, scene.camera.up), middle, aspect);
+  }
+  // Of more frames every so many tell where the labels go.
+  constexpr int kPlaces = 36;
+  scene.camera = figure.with_room_for_axes(orbit(scene.camera, pivot, std::min(frames, kPlaces)));
+}
+
 }  // namespace
+
+bool draws_all_times(const RenderArguments& arguments) {
+  return arguments.import.time == "all";
+}
+
+bool draws_frames(const RenderArguments& arguments) {
+  return !arguments.orbit.empty() || draws_all_times(arguments);
+}
+
+int orbit_frames(const RenderArguments& arguments) {
+  return arguments.orbit.empty() ? 0 : parse_count(arguments.orbit, "--orbit", 1);
+}
+
+Eigen::Vector3d orbit_pivot(const RenderArguments& arguments, const project::Scene& scene) {
+  return arguments.eye.empty() ? drawn_box(scene).center() : scene.camera.target;
+}
 
 bool draws_grid(const RenderArguments& arguments) {
   return arguments.projector == "grid-reference" || arguments.projector == "slices";
 }
 
-project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
+project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                          const mesh::ScalarField* values) {
   project::Scene scene;
   scene.mesh = &mesh;
   std::tie(scene.width, scene.height) = parse_size(arguments.size, "--size");
@@ -260,9 +311,11 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
         arguments.input, scene.drawable.degenerate, scene.drawable.nan, scene.field.name));
   }
   const mesh::Box box = mesh::bounds(mesh);
-  scene.transfer_function = make_transfer_function(arguments, scene.field, box.diagonal().norm());
+  scene.transfer_function = make_transfer_function(
+      arguments, values != nullptr ? *values : scene.field, box.diagonal().norm());
   if (scene.mode == Mode::iso) {
-    scene.isosurfaces = make_isosurfaces(arguments, scene.field, scene.transfer_function);
+    scene.isosurfaces = make_isosurfaces(arguments, values != nullptr ? *values : scene.field,
+                                         scene.transfer_function);
   } else {
     refuse_iso_options(arguments);
   }
@@ -280,7 +333,11 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
     if (!(near < far)) throw base::UsageError("--depth-cue needs NEAR below FAR");
     scene.depth_cue = project::DepthCue{near, far};
   }
-  scene.camera = make_camera(arguments, mesh, static_cast<double>(scene.width) / scene.height);
+  add_opaque_geometry(arguments, scene);
+  const Figure figure(arguments, scene, scene.width, scene.height);
+  scene.width = figure.picture_width();
+  scene.height = figure.picture_height();
+  frame_scene(arguments, figure, scene);
   return scene;
 }
 

@@ -113,6 +113,17 @@ std::vector<double> JsonValue::numbers(std::size_t count, const std::string& wha
   return result;
 }
 
+std::optional<std::vector<JsonValue>> JsonValue::elements() const {
+  if (!node_->json->is_array()) return std::nullopt;
+  return list("a list");
+}
+
+std::string JsonValue::word() const {
+  if (node_->json->is_string()) return node_->json->get<std::string>();
+  if (node_->json->is_number() || node_->json->is_boolean()) return node_->json->dump();
+  fail(fmt::format("must be a text, a number, true or false, not {}", node_->json->dump()));
+}
+
 double JsonValue::number() const {
   if (!node_->json->is_number())
     fail(fmt::format("must be a number, not {}", node_->json->type_name()));

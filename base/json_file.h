@@ -29,6 +29,11 @@ class JsonValue {
   [[nodiscard]] double number() const;
   [[nodiscard]] std::string text() const;
 
+  /// The elements where this is a list.
+  [[nodiscard]] std::optional<std::vector<JsonValue>> elements() const;
+  /// A text, or a number, true or false as it is written.
+  [[nodiscard]] std::string word() const;
+
   /// Throws ReadError: FILE: PLACE what.
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -19,8 +19,9 @@ std::size_t find_time_step(const std::string& wanted, std::span<const double> ti
     const char* end = wanted.data() + wanted.size();
     const auto [stop, error] = std::from_chars(first, end, index);
     if (error != std::errc() || stop != end || index >= times.size()) {
-      throw base::UsageError(fmt::format(
-          "there is no time step '{}'; there are index:0 to index:{}", wanted, times.size() - 1));
+      throw NoTimeStepError(fmt::format("there is no time step '{}'; there are index:0 to index:{}",
+                                        wanted, times.size() - 1),
+                            times.size());
     }
     return index;
   }

@@ -250,6 +250,24 @@ void check_depth_cue(const Scene& scene, Plan& plan) {
                                      scene.depth_cue->near, scene.depth_cue->far));
 }
 
+void check_opaque(const Scene& scene, Plan& plan) {
+  if (scene.opaque.empty()) return;
+  if (scene.mode == Mode::thickness) {
+    throw base::UsageError(
+        "pictures of mode thickness hold lengths, not colors: --outline and --surface have no "
+        "place "
+        "in them");
+  }
+  if (draws_grid(plan.projector)) {
+    throw base::UsageError("the " + to_string(plan.projector) +
+                           " projector draws the grid alone, without --outline and --surface; use "
+                           "--projector cpu, gl or reference");
+  }
+  plan.reasons.push_back(
+      fmt::format("opaque geometry: {} lines and {} surfaces end the rays at their depth",
+                  scene.opaque.lines.size(), scene.opaque.surfaces.size()));
+}
+
 void plan_projector(Plan& plan) {
   switch (plan.projector) {
     case Projector::gl:
@@ -313,6 +331,7 @@ Plan plan(const Scene& scene, const Request& request) {
   if (!scene.clip.empty()) {
     plan.reasons.push_back(fmt::format("clip: cut at {} planes", scene.clip.size()));
   }
+  check_opaque(scene, plan);
   check_depth_cue(scene, plan);
   if (scene.mode == Mode::iso && scene.field.location == mesh::Location::cell) {
     throw base::UsageError(

@@ -1,32 +1,16 @@
 #include "project/render.h"
 
+#include <optional>
+
 #include "base/stopwatch.h"
-#include "project/cpu/cpu_projector.h"
+#include "project/cpu/cell_projector.h"
+#include "project/gl/cell_projector.h"
 #include "project/gl/gl_projector.h"
 #include "project/reference/grid_reference.h"
 #include "project/reference/reference.h"
 #include "project/slices/slices_projector.h"
 
 namespace tetraglass::project {
-namespace {
-
-Image draw_samples(const Scene& scene, const Plan& plan, Stats& stats) {
-  switch (plan.projector) {
-    case Projector::gl:
-      return render_gl(scene, plan, stats);
-    case Projector::cpu:
-      return render_cpu(scene, plan, stats);
-    case Projector::reference:
-      return render_reference(scene, stats);
-    case Projector::slices:
-      return render_slices(scene, plan, stats);
-    case Projector::grid_reference:
-      return render_grid_reference(scene, stats);
-  }
-  return {};
-}
-
-}  // namespace
 
 Image average(const Image& samples, int n) {
   Image image(samples.width / n, samples.height / n);
@@ -42,13 +26,53 @@ Image average(const Image& samples, int n) {
   return image;
 }
 
-Image render(const Scene& scene, const Plan& plan, Stats& stats) {
-  const Image samples = draw_samples(scene, plan, stats);
-  if (scene.samples == 1) return samples;
+struct SceneProjector::Kept {
+  const Scene& scene;
+  Plan plan;
+  std::optional<cpu::CellProjector> cpu;
+  std::unique_ptr<gl::Context> context;
+  std::optional<gl::CellProjector> gl;
+};
+
+SceneProjector::SceneProjector(const Scene& scene, const Plan& plan, Stats& stats)
+    : kept_(new Kept{scene, plan, {}, {}, {}}) {
+  if (plan.projector == Projector::cpu) kept_->cpu.emplace(scene, plan);
+  if (plan.projector == Projector::gl && !scene.drawable.cells.empty()) {
+    kept_->context = gl::Context::create(plan.context);
+    kept_->gl.emplace(*kept_->context, scene, plan, stats);
+  }
+}
+
+SceneProjector::~SceneProjector() = default;
+
+Image SceneProjector::draw(Stats& stats) {
+  const Scene& scene = kept_->scene;
+  const auto samples = [&]() -> Image {
+    if (kept_->cpu) return kept_->cpu->draw(make_frame(scene), stats);
+    if (kept_->gl) return kept_->gl->draw(make_frame(scene), stats);
+    switch (kept_->plan.projector) {
+      case Projector::reference:
+        return render_reference(scene, stats);
+      case Projector::slices:
+        return render_slices(scene, kept_->plan, stats);
+      case Projector::grid_reference:
+        return render_grid_reference(scene, stats);
+      case Projector::cpu:
+      case Projector::gl:
+        break;
+    }
+    return render_gl(scene, kept_->plan, stats);  // of no cell
+  };
+  Image image = samples();
+  if (scene.samples == 1) return image;
   const base::Stopwatch clock;
-  Image image = average(samples, scene.samples);
-  stats.add(Effect::samples, samples.rgba.size() * sizeof(float), clock.milliseconds());
-  return image;
+  Image result = average(image, scene.samples);
+  stats.add(Effect::samples, image.rgba.size() * sizeof(float), clock.milliseconds());
+  return result;
+}
+
+Image render(const Scene& scene, const Plan& plan, Stats& stats) {
+  return SceneProjector(scene, plan, stats).draw(stats);
 }
 
 }  // namespace tetraglass::project

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "project/image.h"
 #include "project/plan.h"
 #include "project/scene.h"
@@ -12,6 +14,23 @@ namespace tetraglass::project {
 /// plan's context cannot be had, UsageError for a camera that sees nothing.
 [[nodiscard]] Image render(const Scene& scene, const Plan& plan, Stats& stats);
 
+/// The same for any number of views of a scene, as its `camera` says when a picture is drawn: the
+/// cpu and gl projectors set up once what does not depend on the view. Nothing else of the scene
+/// may change but its opaque geometry; it outlives this.
+class SceneProjector {
+ public:
+  /// Throws as `render`. Adds the time for tables to `stats`.
+  SceneProjector(const Scene& scene, const Plan& plan, Stats& stats);
+  ~SceneProjector();
+  SceneProjector(const SceneProjector&) = delete;
+  SceneProjector& operator=(const SceneProjector&) = delete;
+
+  [[nodiscard]] Image draw(Stats& stats);
+
+ private:
+  struct Kept;
+  std::unique_ptr<Kept> kept_;
+};
 /// Each pixel the mean of n x n samples.
 [[nodiscard]] Image average(const Image& samples, int n);
 

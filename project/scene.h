@@ -12,6 +12,7 @@
 #include "project/clip.h"
 #include "project/depth_cue.h"
 #include "project/light/lights.h"
+#include "project/opaque_geometry.h"
 
 namespace tetraglass::project {
 
@@ -52,6 +53,7 @@ struct Scene {
   std::optional<double> modulation;
   std::vector<ClipPlane> clip;        ///< what all of them keep is drawn
   std::optional<DepthCue> depth_cue;  ///< mode iso
+  OpaqueGeometry opaque;              ///< drawn at its depth in the volume
   Camera camera;
   int width = 800;
   int height = 600;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "apps/options.h"
-#include "apps/picture_output.h"
+#include "apps/picture_files.h"
 #include "apps/view/saved_files.h"
 #include "preint/transfer_function_edit.h"
 #include "preint/transfer_function_file.h"
@@ -263,7 +263,7 @@ std::vector<std::string> Viewer::save_picture() const {
   const std::string name =
       free_name(std::filesystem::path(arguments.input).stem().string(), {".png", ".tf.json"});
   arguments.outputs = {name + ".png"};
-  write_pictures(arguments, facts_->mode, picture_->image);
+  write_pictures(arguments, arguments.outputs, facts_->mode, picture_->image);
   std::vector<std::string> files = arguments.outputs;
   const std::vector<std::string> beside = save_beside(name + ".png");
   files.insert(files.end(), beside.begin(), beside.end());

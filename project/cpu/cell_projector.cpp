@@ -1,5 +1,9 @@
 #include "project/cpu/cell_projector.h"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
@@ -7,11 +11,28 @@
 
 #include "base/stopwatch.h"
 #include "project/cpu/tile_order.h"
+#include "project/opaque_layers.h"
 #include "project/single_color.h"
 
 namespace tetraglass::project::cpu {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Of the pixels of the region that the image has.
+std::pair<double, double> range_of_ends(RayEnds ends, const Image& image, const Region& region) {
+  std::pair<double, double> range{kInfinity, -kInfinity};
+  for (int y = region.y; y < std::min(region.y + region.height, image.height); ++y) {
+    for (int x = region.x; x < std::min(region.x + region.width, image.width); ++x) {
+      const double end = ends[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                              static_cast<std::size_t>(x)];
+      range.first = std::min(range.first, end);
+      range.second = std::max(range.second, end);
+    }
+  }
+  return range;
+}
 
 template <class T>
 std::size_t bytes_of(const std::vector<T>& values) {
@@ -84,7 +105,6 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const base::Stopwatch clock;
   for (const auto& [effect, work] : set_up_.work) stats.add(effect, work.bytes, work.ms);
   set_up_.work.clear();
-  Image image(frame.width(), frame.height());
   const Projection projection(frame, radius_, middle_);
   Picture shared = picture(frame, projection);
   points_.project(*scene_.mesh, cells_, frame, projection);
@@ -94,9 +114,25 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const std::vector<ViewedLight> lights =
       lighting_ ? lighting_->view(frame, projection) : std::vector<ViewedLight>{};
   shared.lights = lights;
-  shared.image = &image;
-  const bool blends = plan_.sort != SortMethod::none;
+  Image image;
+  if (scene_.opaque.empty()) {
+    image = draw_tiles(shared, stats);
+  } else {
+    const OpaqueLayers opaque(scene_.opaque, scene_.lights, frame, scene_.samples);
+    image = opaque.compose([&](RayEnds ends) {
+      shared.ends = ends;
+      return draw_tiles(shared, stats);
+    });
+  }
+  stats.threads = tbb::this_task_arena::max_concurrency();
+  stats.project_ms += clock.milliseconds();
+  return image;
+}
+
+Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
   const base::Stopwatch drawing;
+  Image image(shared.frame->width(), shared.frame->height());
+  const bool blends = plan_.sort != SortMethod::none;
   const std::vector<std::uint32_t> tiles = bins_.largest_first();
   struct Worker {
     TileBuffers buffers;
@@ -109,17 +145,24 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
       std::size_t{0}, tiles.size(),
       [&](std::size_t i) {
         const std::size_t tile = tiles[i];
-        const int x = static_cast<int>(tile % bins_.tiles_x()) * shared.tile_size;
-        const int y = static_cast<int>(tile / bins_.tiles_x()) * shared.tile_size;
+        const Region region{static_cast<int>(tile % bins_.tiles_x()) * shared.tile_size,
+                            static_cast<int>(tile / bins_.tiles_x()) * shared.tile_size,
+                            shared.tile_size, shared.tile_size};
+        Picture own = shared;
+        own.image = &image;
+        if (!shared.ends.empty()) {
+          const auto [nearest, farthest] = range_of_ends(shared.ends, image, region);
+          if (farthest == -kInfinity) return;
+          if (nearest == kInfinity) own.ends = {};
+        }
         Worker& worker = workers.local();
         std::span<const std::uint32_t> cells = bins_.cells(tile);
         if (blends) {
           const base::Stopwatch ordering;
-          cells = worker.order.front_to_back(cells, cells_, points_,
-                                             {x, y, shared.tile_size, shared.tile_size});
+          cells = worker.order.front_to_back(cells, cells_, points_, region);
           worker.order_ms += ordering.milliseconds();
         }
-        worker.fragments += draw_tile(shared, x, y, cells, worker.buffers).fragments;
+        worker.fragments += draw_tile(own, region.x, region.y, cells, worker.buffers).fragments;
       },
       tbb::simple_partitioner());
   double order_ms = 0;
@@ -127,7 +170,7 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     stats.fragments += worker.fragments;
     if (blends) stats.add(Effect::order, worker.order.bytes() + worker.buffers.order_bytes());
     order_ms += worker.order_ms / static_cast<double>(workers.size());
-    if (projection.perspective) stats.add(Effect::rays, worker.buffers.ray_bytes());
+    if (shared.projection->perspective) stats.add(Effect::rays, worker.buffers.ray_bytes());
     if (!scene_.clip.empty()) stats.add(Effect::clipping, worker.buffers.clip_bytes());
   }
   if (blends) {
@@ -135,8 +178,6 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     stats.sort_method = to_string(plan_.sort);
   }
   stats.add(Effect::segments, 0, drawing.milliseconds() - order_ms);
-  stats.threads = tbb::this_task_arena::max_concurrency();
-  stats.project_ms += clock.milliseconds();
   return image;
 }
 

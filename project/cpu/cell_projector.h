@@ -38,6 +38,8 @@ class CellProjector {
   void set_up_light();
   void set_up_medium();
   [[nodiscard]] Picture picture(const Frame& frame, const Projection& projection) const;
+  /// Draws what is binned.
+  [[nodiscard]] Image draw_tiles(const Picture& shared, Stats& stats);
 
   const Scene& scene_;
   Plan plan_;

@@ -29,7 +29,7 @@ struct TileBuffers::Contents {
   hwy::AlignedFreeUniquePtr<float[]> accumulators =
       hwy::AllocateAligned<float>(4 * kPixels);  // see BlockSums
   hwy::AlignedFreeUniquePtr<float[]> stretch;    // only in perspective
-  hwy::AlignedFreeUniquePtr<float[]> clipped;    // near and far; only where there are clip planes
+  hwy::AlignedFreeUniquePtr<float[]> clipped;    // near and far; only where rays are clipped
 
   /// Room for so many floats.
   float* records(std::size_t count) {
@@ -72,12 +72,17 @@ void write_pixels(const Picture& picture, int tile_x, int tile_y, const F& pixel
   }
 }
 
+/// Whether rays have less of the mesh than all that they meet.
+bool is_clipped(const Picture& picture) {
+  return !picture.clip.empty() || !picture.ends.empty();
+}
+
 /// Feeds the shader with the segments of the cells; returns their number.
 template <class Shader>
 std::uint64_t rasterize(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                         const TileBuffers::Contents& buffers, Shader& shader) {
   const float* stretch = buffers.stretch.get();
-  const float* clipped = picture.clip.empty() ? nullptr : buffers.clipped.get();
+  const float* clipped = !is_clipped(picture) ? nullptr : buffers.clipped.get();
   if (picture.projection->perspective) {
     return TileRaster<true, Shader>(picture, x, y, stretch, clipped, shader).draw(cells);
   }
@@ -218,7 +223,7 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
     }
     fill_stretch(*picture.projection, x, y, picture.tile_size, buffers.stretch.get());
   }
-  if (!picture.clip.empty()) {
+  if (is_clipped(picture)) {
     if (!buffers.clipped) {
       buffers.clipped = hwy::AllocateAligned<float>(2 * TileBuffers::Contents::kPixels);
     }

@@ -12,6 +12,7 @@
 #include "project/cpu/surfaces.h"
 #include "project/cpu/view_points.h"
 #include "project/image.h"
+#include "project/opaque_layers.h"
 
 namespace tetraglass::project::cpu {
 
@@ -34,7 +35,8 @@ struct Picture {
   const Projection* projection = nullptr;
   const Frame* frame = nullptr;
   std::span<const ClipPlane> clip;
-  const Medium* medium = nullptr;            ///< null in modes that have no use for it
+  RayEnds ends;                    ///< of the image's pixels; none where no ray ends in the mesh
+  const Medium* medium = nullptr;  ///< null in modes that have no use for it
   std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium
   std::span<const Surface> surfaces;         ///< mode iso
   const Lighting* lighting = nullptr;        ///< null without shading

@@ -98,13 +98,14 @@ HWY_INLINE PixelPlace place_of(int tile_size, int x, int y) {
   return {static_cast<std::size_t>(block), static_cast<std::size_t>(lane)};
 }
 
-/// The part of the rays of a tile that clip planes keep, near and far of block by block.
+/// The part of the rays of a tile that clip planes and the ends of rays keep, near and far of block
+/// by block.
 HWY_INLINE void fill_clipped(const Picture& picture, int tile_x, int tile_y, float* depths) {
   for (int y = 0; y < picture.tile_size; ++y) {
     for (int x = 0; x < picture.tile_size; ++x) {
       const PixelPlace pixel = place_of(picture.tile_size, x, y);
-      const ClippedDepths kept =
-          clipped_depths(picture.clip, *picture.frame, *picture.projection, tile_x + x, tile_y + y);
+      const ClippedDepths kept = clipped_depths(picture.clip, picture.ends, *picture.frame,
+                                                *picture.projection, tile_x + x, tile_y + y);
       float* place = depths + 2 * pixel.block * kLanes + pixel.lane;
       place[0] = kept.near;
       place[kLanes] = kept.far;

@@ -45,9 +45,15 @@ void ViewPoints::project(const mesh::TetMesh& mesh, const DrawnCells& cells, con
   });
 }
 
-ClippedDepths clipped_depths(std::span<const ClipPlane> planes, const Frame& frame,
+ClippedDepths clipped_depths(std::span<const ClipPlane> planes, RayEnds ends, const Frame& frame,
                              const Projection& projection, int x, int y) {
-  const DepthRange kept = clipped_ray(planes, frame, frame.image_plane(x, y));
+  DepthRange kept = clipped_ray(planes, frame, frame.image_plane(x, y));
+  if (!ends.empty() && x < frame.width() && y < frame.height()) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+        static_cast<std::size_t>(x);
+    kept.far = std::min(kept.far, ends[pixel]);
+  }
   const auto depth = [&](double z) {
     if (!projection.perspective) return (z - projection.depth_offset) / projection.radius;
     // Behind the eye is nothing.

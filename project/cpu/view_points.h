@@ -6,6 +6,7 @@
 #include "project/camera.h"
 #include "project/clip.h"
 #include "project/cpu/drawn_cells.h"
+#include "project/opaque_layers.h"
 
 namespace tetraglass::project::cpu {
 
@@ -54,14 +55,16 @@ struct ViewPoints {
                const Projection& projection);
 };
 
-/// The part of the rays through pixels that clip planes keep, in the depths of FaceBatch: of the
-/// pixel (x, y). Nothing where near >= far.
+/// The part of the rays through pixels that clip planes keep, and that lies in front of the rays'
+/// ends where there are some, in the depths of FaceBatch: of the pixel (x, y). Nothing where near
+/// >= far.
 struct ClippedDepths {
   float near;
   float far;
 };
-[[nodiscard]] ClippedDepths clipped_depths(std::span<const ClipPlane> planes, const Frame& frame,
-                                           const Projection& projection, int x, int y);
+[[nodiscard]] ClippedDepths clipped_depths(std::span<const ClipPlane> planes, RayEnds ends,
+                                           const Frame& frame, const Projection& projection, int x,
+                                           int y);
 
 /// The field at the eye of a perspective view, inside the cell of these vertices.
 [[nodiscard]] double value_at_eye(const mesh::Cell& cell, const ViewPoints& points);

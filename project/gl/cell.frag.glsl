@@ -52,7 +52,8 @@ float texel_centre(float x, float n) { return (clamp(x, 0.0, 1.0) * (n - 1) + 0.
 #include "segment_by_planes.glsl"
 #endif
 
-#ifdef CLIP_PLANES
+#if defined(CLIP_PLANES) || defined(RAY_ENDS)
+#define CLIPPED
 #include "clip.glsl"
 #endif
 
@@ -177,9 +178,12 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
 
 void main() {
   vec2 position = gl_FragCoord.xy + tile_corner;
+#ifdef RAY_ENDS
+  if (ray_end() <= kNotWanted) discard;
+#endif
   Segment seg;
   if (!segment(position, seg)) discard;
-#ifdef CLIP_PLANES
+#ifdef CLIPPED
   if (!clip(position, seg)) discard;
 #endif
 #ifdef COUNT_FRAGMENTS

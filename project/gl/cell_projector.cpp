@@ -129,11 +129,13 @@ void CellProjector::make_tables(Stats& stats) {
 }
 
 const Program& CellProjector::program(bool parallel, const std::string& pass) {
-  const std::string purpose = (parallel ? "parallel " : "perspective ") + pass;
+  const std::string purpose =
+      (parallel ? "parallel " : "perspective ") + pass + (ends_.empty() ? "" : " with ends");
   if (const auto found = programs_.find(purpose); found != programs_.end()) return found->second;
   std::vector<std::string> names = shader_switches(scene_, plan_, parallel);
   for (std::string& name : cells_->switches()) names.push_back(std::move(name));
   if (!pass.empty()) names.push_back(pass);
+  if (!ends_.empty()) names.emplace_back("RAY_ENDS");
   const Program& program =
       programs_
           .try_emplace(purpose, context_, shader_source(cells_->vertex_shader(), names),
@@ -147,6 +149,7 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   program.set("surfaces", Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
   program.set("lights", Units::kLights);
+  program.set("ray_ends", Units::kRayEnds);
   program.set("light_count", static_cast<int>(sources_.size()));
   if (scene_.lights) {
     program.set("ambient_light", Eigen::Vector3f(scene_.lights->ambient.cast<float>().matrix()));
@@ -252,34 +255,72 @@ void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Til
   read_tile(target, scene_, normalization_, tile, image);
 }
 
+bool CellProjector::place_ends(const Frame& frame, const ViewUniforms& view, const Tile& tile) {
+  tile_ends_.reset();
+  if (ends_.empty()) return true;
+  constexpr double kFar = 1e30;  // see kNotWanted of clip.glsl
+  std::vector<float> depths;
+  bool wanted = false;
+  for (int y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int x = tile.x; x < tile.x + tile.width; ++x) {
+      const double end =
+          ends_[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+                static_cast<std::size_t>(x)];
+      wanted = wanted || end > -std::numeric_limits<double>::infinity();
+      depths.push_back(
+          static_cast<float>(std::clamp(end / normalization_.radius - view.focus(), -kFar, kFar)));
+    }
+  }
+  if (!wanted) return false;
+  tile_ends_.emplace(context_, Texel::r32f, std::array<int, 3>{tile.width, tile.height, 0}, depths,
+                     false);
+  tile_ends_->bind(Units::kRayEnds);
+  return true;
+}
+
+Image CellProjector::draw_rays(const Frame& frame, const ViewUniforms& view, RayEnds ends,
+                               Stats& stats) {
+  Image image(frame.width(), frame.height());
+  if (drawn_.empty() || !view.sees_mesh()) return image;
+  ends_ = ends;
+  const int width = std::min(frame.width(), largest_tile_);
+  const int height = std::min(frame.height(), largest_tile_);
+  const Target target(context_, target_texel(scene_, plan_.gl.target),
+                      draws_opaque_surfaces(scene_), width, height);
+  bind();
+  place_lights(frame, view);
+  if (lights_) stats.add(Effect::lights, lights_->bytes());
+  if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
+    lists_.emplace(context_, width, height, most_fragments_);
+    stats.add(Effect::order, lists_->bytes());
+  }
+  for (int y = 0; y < frame.height(); y += height) {
+    for (int x = 0; x < frame.width(); x += width) {
+      const Tile tile{x, y, std::min(width, frame.width() - x),
+                      std::min(height, frame.height() - y)};
+      if (place_ends(frame, view, tile)) {
+        draw_tile(frame.parallel(), view, tile, target, image, stats);
+      }
+    }
+  }
+  context_.gl().Finish();
+  context_.check("drawing cells");
+  ends_ = {};
+  return image;
+}
+
 Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const bool exact = order_cells(frame, stats);
   by_fragments_ = plan_.sort == SortMethod::fragments || (plan_.fragments_in_cycles && !exact);
   const base::Stopwatch clock;
   stats.context = context_.description();
-  Image image(frame.width(), frame.height());
   const ViewUniforms view(frame, normalization_, scene_);
-  if (!drawn_.empty() && view.sees_mesh()) {
-    const int width = std::min(frame.width(), largest_tile_);
-    const int height = std::min(frame.height(), largest_tile_);
-    const Target target(context_, target_texel(scene_, plan_.gl.target),
-                        draws_opaque_surfaces(scene_), width, height);
-    bind();
-    place_lights(frame, view);
-    if (lights_) stats.add(Effect::lights, lights_->bytes());
-    if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
-      lists_.emplace(context_, width, height, most_fragments_);
-      stats.add(Effect::order, lists_->bytes());
-    }
-    for (int y = 0; y < frame.height(); y += height) {
-      for (int x = 0; x < frame.width(); x += width) {
-        const Tile tile{x, y, std::min(width, frame.width() - x),
-                        std::min(height, frame.height() - y)};
-        draw_tile(frame.parallel(), view, tile, target, image, stats);
-      }
-    }
-    context_.gl().Finish();
-    context_.check("drawing cells");
+  Image image;
+  if (scene_.opaque.empty()) {
+    image = draw_rays(frame, view, {}, stats);
+  } else {
+    const OpaqueLayers opaque(scene_.opaque, scene_.lights, frame, scene_.samples);
+    image = opaque.compose([&](RayEnds ends) { return draw_rays(frame, view, ends, stats); });
   }
   stats.add(Effect::segments, 0, clock.milliseconds());
   stats.project_ms += clock.milliseconds();

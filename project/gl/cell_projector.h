@@ -13,6 +13,7 @@
 #include "project/gl/view_uniforms.h"
 #include "project/image.h"
 #include "project/light/light_sources.h"
+#include "project/opaque_layers.h"
 #include "project/plan.h"
 #include "project/stats.h"
 #include "sort/cell_sorter.h"
@@ -33,7 +34,8 @@ class CellProjector {
                 int largest_tile = kLargestTile, std::size_t most_fragments = FragmentLists::kMost);
 
   /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
-  /// and size do not matter.
+  /// and size do not matter. Its opaque geometry may have changed since the last one (but for the
+  /// layouts faces12, where there is some or none from the beginning).
   [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
 
   /// What the cells take on the context.
@@ -48,6 +50,11 @@ class CellProjector {
   void bind() const;
   void set_blending() const;
   void place_lights(const Frame& frame, const ViewUniforms& view);
+  /// Rays end where they are told, if they are told.
+  [[nodiscard]] Image draw_rays(const Frame& frame, const ViewUniforms& view, RayEnds ends,
+                                Stats& stats);
+  /// Hands the tile's part of the ends to the shaders; false where none of its pixels is wanted.
+  bool place_ends(const Frame& frame, const ViewUniforms& view, const Tile& tile);
   void draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile, const Target& target,
                  Image& image, Stats& stats);
   void draw_fragments(bool parallel, const ViewUniforms& view, const Tile& tile, Stats& stats);
@@ -69,6 +76,8 @@ class CellProjector {
   FragmentCounter counter_;
   std::map<std::string, Program> programs_;  // by the purpose that they were made for
   bool by_fragments_ = false;                // the frame
+  RayEnds ends_;                             // of the frame's rays, while they are drawn
+  std::optional<Table> tile_ends_;
   std::optional<FragmentLists> lists_;
   std::optional<sort::CellSorter> sorter_;
 };

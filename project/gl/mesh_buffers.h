@@ -43,6 +43,7 @@ struct Units {
   static constexpr int kSurfaces = 8;
   static constexpr int kMinima = 9;
   static constexpr int kLights = 10;
+  static constexpr int kRayEnds = 11;
 };
 
 }  // namespace tetraglass::project::gl

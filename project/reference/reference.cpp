@@ -15,6 +15,7 @@
 #include "preint/segment_integral.h"
 #include "project/light/phong.h"
 #include "project/modulation.h"
+#include "project/opaque_layers.h"
 #include "project/reference/lit_segment.h"
 #include "project/reference/ray_cells.h"
 
@@ -32,6 +33,9 @@ class Tracer {
                                            : mesh::vertex_gradients(*scene.mesh, scene.field);
     }
     if (scene.modulation) densities_ = cell_densities(scene);
+    if (!scene.opaque.empty()) {
+      opaque_.emplace(scene.opaque, scene.lights, cells_.frame(), scene.samples);
+    }
   }
 
   [[nodiscard]] const Frame& frame() const { return cells_.frame(); }
@@ -40,9 +44,31 @@ class Tracer {
   /// afterwards.
   [[nodiscard]] Rgba trace(int x, int y, std::vector<RaySegment>& segments) const {
     cells_.segments(x, y, segments);
-    if (!scene_.clip.empty()) clip(x, y, segments);
-    if (segments.empty()) return Rgba::Zero();
+    if (!scene_.clip.empty()) {
+      clip(clipped_ray(scene_.clip, cells_.frame(), cells_.frame().image_plane(x, y)), segments);
+    }
     const Ray ray(cells_.frame(), x, y);
+    if (!opaque_) return volume(ray, segments);
+    Rgba sum = Rgba::Zero();
+    double left = 1;
+    for (const OpaqueFragment& fragment : opaque_->fragments(x, y)) {
+      std::vector<RaySegment> before = segments;
+      clip({-std::numeric_limits<double>::infinity(), fragment.depth}, before);
+      const Rgba front = volume(ray, before);
+      const Rgba behind(fragment.color[0], fragment.color[1], fragment.color[2], 1);
+      const double coverage = fragment.coverage;
+      sum += left * coverage * (front + (1 - front.w()) * behind);
+      left *= 1 - coverage;
+    }
+    return left > 0 ? (sum + left * volume(ray, segments)).eval() : sum;
+  }
+
+ private:
+  struct Ray;
+
+  /// The color of the ray by its segments alone.
+  [[nodiscard]] Rgba volume(const Ray& ray, const std::vector<RaySegment>& segments) const {
+    if (segments.empty()) return Rgba::Zero();
     switch (scene_.mode) {
       case Mode::full:
         return scene_.shading == Shading::none ? full(segments, ray) : lit(segments, ray);
@@ -60,7 +86,6 @@ class Tracer {
     return Rgba::Zero();
   }
 
- private:
   /// A pixel's ray in the mesh's coordinates.
   struct Ray {
     Ray(const Frame& frame, int x, int y) {
@@ -79,10 +104,8 @@ class Tracer {
     double stretch;  ///< the length of a unit of depth
   };
 
-  /// Cuts the segments where the scene's planes do, and drops those of which nothing is left.
-  void clip(int x, int y, std::vector<RaySegment>& segments) const {
-    const DepthRange kept =
-        clipped_ray(scene_.clip, cells_.frame(), cells_.frame().image_plane(x, y));
+  /// Cuts the segments to the part of the ray, and drops those of which nothing is left.
+  static void clip(const DepthRange& kept, std::vector<RaySegment>& segments) {
     std::erase_if(segments, [&](RaySegment& s) {
       const double near = std::max(s.entry, kept.near);
       const double far = std::min(s.exit, kept.far);
@@ -226,6 +249,7 @@ class Tracer {
   RayCells cells_;
   std::vector<Eigen::Vector3d> gradients_;  // per vertex or per cell; empty without shading
   std::vector<double> densities_;           // per cell; empty without modulation
+  std::optional<OpaqueLayers> opaque_;
 };
 
 }  // namespace
