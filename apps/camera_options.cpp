@@ -37,7 +37,7 @@ Eigen::Vector3d read_vector(const base::JsonValue& json) {
 
 project::Camera read_camera(const std::string& file) {
   base::JsonValue json = base::JsonValue::read(file);
-  if (const auto session = json.find("camera")) json = *session;
+  if (const auto of_session = json.find("camera")) json = *of_session;
   json.allow_only({"eye", "target", "up", "fov", "ortho"});
   project::Camera camera;
   camera.eye = read_vector(json.member("eye"));

@@ -92,6 +92,7 @@ void add_scene_options(CLI::App* app, RenderArguments& arguments);
 
 /// What stands around the picture and among the volume.
 void add_figure_options(CLI::App* app, FigureArguments& arguments);
+
 /// How it is drawn: the projector and what can be chosen of it.
 void add_method_options(CLI::App* app, RenderArguments& arguments);
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,16 @@ void note_time_step(std::vector<std::string>& notes, std::size_t step,
   if (times.size() < 2) return;
   notes.push_back(
       fmt::format("{}time step {} of {} (time {:g})", of, step, times.size(), times[step]));
+}
+
+std::optional<NotedTimeStep> noted_time_step(std::span<const std::string> notes) {
+  static const std::regex kNote(R"((?:^|: )time step (\d+) of (\d+) \(time (\S+)\)$)");
+  for (const std::string& note : notes) {
+    std::smatch match;
+    if (!std::regex_search(note, match, kNote)) continue;
+    return NotedTimeStep{std::stoul(match[1]), std::stoul(match[2]), match[3]};
+  }
+  return std::nullopt;
 }
 
 }  // namespace tetraglass::mesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,5 +31,15 @@ class NoTimeStepError : public base::UsageError {
 /// names what has the steps. Of a single step there is nothing to tell.
 void note_time_step(std::vector<std::string>& notes, std::size_t step,
                     std::span<const double> times, const std::string& of = "");
+
+/// What `note_time_step` told.
+struct NotedTimeStep {
+  std::size_t step = 0;  ///< counted from 0
+  std::size_t count = 0;
+  std::string time;
+};
+
+/// The first step that the notes tell of; nothing where they tell of none.
+[[nodiscard]] std::optional<NotedTimeStep> noted_time_step(std::span<const std::string> notes);
 
 }  // namespace tetraglass::mesh

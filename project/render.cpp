@@ -30,16 +30,17 @@ struct SceneProjector::Kept {
   const Scene& scene;
   Plan plan;
   std::optional<cpu::CellProjector> cpu;
-  std::unique_ptr<gl::Context> context;
+  std::unique_ptr<gl::Context> own_context;
   std::optional<gl::CellProjector> gl;
 };
 
-SceneProjector::SceneProjector(const Scene& scene, const Plan& plan, Stats& stats)
+SceneProjector::SceneProjector(const Scene& scene, const Plan& plan, Stats& stats,
+                               const gl::Context* context)
     : kept_(new Kept{scene, plan, {}, {}, {}}) {
   if (plan.projector == Projector::cpu) kept_->cpu.emplace(scene, plan);
   if (plan.projector == Projector::gl && !scene.drawable.cells.empty()) {
-    kept_->context = gl::Context::create(plan.context);
-    kept_->gl.emplace(*kept_->context, scene, plan, stats);
+    if (context == nullptr) kept_->own_context = gl::Context::create(plan.context);
+    kept_->gl.emplace(context == nullptr ? *kept_->own_context : *context, scene, plan, stats);
   }
 }
 

@@ -14,13 +14,19 @@ namespace tetraglass::project {
 /// plan's context cannot be had, UsageError for a camera that sees nothing.
 [[nodiscard]] Image render(const Scene& scene, const Plan& plan, Stats& stats);
 
-/// The same for any number of views of a scene, as its `camera` says when a picture is drawn: the
-/// cpu and gl projectors set up once what does not depend on the view. Nothing else of the scene
-/// may change but its opaque geometry; it outlives this.
+namespace gl {
+class Context;
+}
+
+/// The same for any number of views of a scene, as its `camera`, size and samples say when a
+/// picture is drawn: the cpu and gl projectors set up once what does not depend on the view.
+/// Nothing else of the scene may change but its opaque geometry; it outlives this.
 class SceneProjector {
  public:
-  /// Throws as `render`. Adds the time for tables to `stats`.
-  SceneProjector(const Scene& scene, const Plan& plan, Stats& stats);
+  /// Throws as `render`. Adds the time for tables to `stats`. gl draws on `context`, which outlives
+  /// this, or where there is none on one of its own by the plan.
+  SceneProjector(const Scene& scene, const Plan& plan, Stats& stats,
+                 const gl::Context* context = nullptr);
   ~SceneProjector();
   SceneProjector(const SceneProjector&) = delete;
   SceneProjector& operator=(const SceneProjector&) = delete;
@@ -31,6 +37,7 @@ class SceneProjector {
   struct Kept;
   std::unique_ptr<Kept> kept_;
 };
+
 /// Each pixel the mean of n x n samples.
 [[nodiscard]] Image average(const Image& samples, int n);
 

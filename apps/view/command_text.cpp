@@ -53,12 +53,26 @@ constexpr std::array kValues = {
     Values{"--clip", &RenderArguments::clip},
 };
 
+struct FigureFlag {
+  std::string_view name;
+  bool FigureArguments::*value;
+};
+
+constexpr std::array kFigureFlags = {
+    FigureFlag{"--outline", &FigureArguments::outline},
+    FigureFlag{"--axes", &FigureArguments::axes},
+    FigureFlag{"--legend", &FigureArguments::legend},
+};
+
+constexpr std::string_view kTitle = "--title";
 constexpr std::string_view kLog = "--log";
 constexpr std::string_view kTime = "--time";
 
 bool is_changed_by_window(const std::string& name) {
   const auto is_it = [&](const auto& option) { return option.name == name; };
-  return name == kLog || name == kTime || std::any_of(kOneValue.begin(), kOneValue.end(), is_it) ||
+  return name == kLog || name == kTime || name == kTitle ||
+         std::any_of(kFigureFlags.begin(), kFigureFlags.end(), is_it) ||
+         std::any_of(kOneValue.begin(), kOneValue.end(), is_it) ||
          std::any_of(kValues.begin(), kValues.end(), is_it);
 }
 
@@ -116,6 +130,10 @@ std::vector<std::string> render_words(const RenderArguments& arguments,
     }
   }
   if (arguments.logarithmic) words.emplace_back(kLog);
+  for (const FigureFlag& flag : kFigureFlags) {
+    if (arguments.figure.*flag.value) words.emplace_back(flag.name);
+  }
+  if (!arguments.figure.title.empty()) add_option(words, kTitle, arguments.figure.title);
   if (!arguments.import.time.empty()) add_option(words, kTime, arguments.import.time);
   for (const TypedOption& option : typed) {
     if (is_changed_by_window(option.name)) continue;

@@ -27,6 +27,8 @@ enum class Action {
   save_picture,
   save_window,
   copy_command,
+  save_session,
+  play,
   verify,
   toggle_panel,
   help,

@@ -8,6 +8,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/figure.h"
 #include "apps/mesh_input.h"
 #include "apps/picture_output.h"
 #include "base/errors.h"
@@ -68,6 +69,19 @@ int coarse(int pixels, int coarseness) {
   return (pixels + coarseness - 1) / coarseness;
 }
 
+/// Each pixel the nearest one of a smaller picture.
+project::Image enlarged(const project::Image& image, int width, int height) {
+  if (image.width == width && image.height == height) return image;
+  project::Image result(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::copy_n(image.pixel(x * image.width / width, y * image.height / height), 4,
+                  result.pixel(x, y));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 /// What is kept from picture to picture, on the drawing thread.
@@ -92,7 +106,10 @@ class Drawing::Work {
   mesh::Import import_;
   std::shared_ptr<const SceneFacts> facts_;
   int samples_ = 1;
-  std::optional<project::SceneRenderer> renderer_;
+  project::Scene scene_;
+  project::Camera first_camera_;  // of the scene by its arguments
+  project::Plan plan_;
+  std::optional<project::SceneProjector> projector_;  // of them: dies first
 };
 
 const project::gl::Context* Drawing::Work::context() {
@@ -116,7 +133,7 @@ project::Plan Drawing::Work::make_plan(const project::Scene& scene,
 
 void Drawing::Work::read(const DrawRequest& request) {
   if (mesh_version_ == request.mesh_version) return;
-  renderer_.reset();
+  projector_.reset();
   facts_.reset();
   mesh_version_.reset();
   scene_version_.reset();
@@ -129,31 +146,33 @@ void Drawing::Work::read(const DrawRequest& request) {
 void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   if (scene_version_ == request.scene_version) return;
   const base::Stopwatch clock;
-  renderer_.reset();
+  projector_.reset();
   scene_version_.reset();
-  project::Scene scene = make_scene(request.arguments, import_.mesh);
-  samples_ = scene.samples;
+  scene_ = make_scene(request.arguments, import_.mesh);
+  first_camera_ = scene_.camera;
+  samples_ = scene_.samples;
   auto facts = std::make_shared<SceneFacts>();
   facts->fields = field_names(import_.mesh);
-  facts->field = scene.field.name;
-  facts->low = scene.field.min;
-  facts->high = scene.field.max;
+  facts->field = scene_.field.name;
+  facts->low = scene_.field.min;
+  facts->high = scene_.field.max;
   if (facts->low < facts->high) {
-    facts->histogram = preint::histogram(scene.field.values, facts->low, facts->high, kBins);
+    facts->histogram = preint::histogram(scene_.field.values, facts->low, facts->high, kBins);
   }
-  facts->transfer_function = scene.transfer_function;
-  for (const preint::Isosurface& surface : scene.isosurfaces) {
+  facts->transfer_function = scene_.transfer_function;
+  for (const preint::Isosurface& surface : scene_.isosurfaces) {
     facts->isovalues.push_back(surface.value);
   }
-  facts->mode = scene.mode;
+  facts->mode = scene_.mode;
   facts->box = mesh::bounds(import_.mesh);
-  facts->cells = scene.drawable.cells.size();
-  facts->not_drawn = scene.drawable.degenerate + scene.drawable.nan;
+  facts->cells = scene_.drawable.cells.size();
+  facts->not_drawn = scene_.drawable.degenerate + scene_.drawable.nan;
   facts->notes = import_.report.notes;
-  project::Plan plan = make_plan(scene, request.arguments);
-  facts->plan = plan.reasons;
-  const bool gl = plan.projector == project::Projector::gl;
-  renderer_.emplace(std::move(scene), std::move(plan), drawn.stats, gl ? context() : nullptr);
+  facts->time_step = mesh::noted_time_step(facts->notes);
+  plan_ = make_plan(scene_, request.arguments);
+  facts->plan = plan_.reasons;
+  const bool gl = plan_.projector == project::Projector::gl;
+  projector_.emplace(scene_, plan_, drawn.stats, gl ? context() : nullptr);
   facts_ = std::move(facts);
   scene_version_ = request.scene_version;
   drawn.scene_ms = clock.milliseconds();
@@ -163,23 +182,34 @@ Drawn Drawing::Work::draw(const DrawRequest& request) {
   Drawn drawn;
   read(request);
   set_up(request, drawn);
-  const double aspect = static_cast<double>(request.width) / request.height;
-  drawn.camera = request.camera    ? *request.camera
-                 : request.framing ? framed(import_.mesh, *request.framing, aspect)
-                                   : make_camera(request.arguments, import_.mesh, aspect);
+  scene_.width = request.width;
+  scene_.height = request.height;
+  const Figure figure(request.arguments, scene_, request.width, request.height);
+  const int width = figure.picture_width();
+  const int height = figure.picture_height();
+  drawn.camera = request.camera ? *request.camera : first_camera_;
+  if (request.framing) {
+    const double aspect = static_cast<double>(width) / height;
+    drawn.camera = figure.with_room_for_axes({framed(import_.mesh, *request.framing, aspect)});
+  }
   drawn.coarseness = request.coarseness;
-  drawn.width = coarse(request.width, request.coarseness);
-  drawn.height = coarse(request.height, request.coarseness);
   const base::Stopwatch clock;
-  drawn.image = renderer_->draw(
-      {drawn.camera, drawn.width, drawn.height, request.coarseness == 1 ? samples_ : 1},
-      drawn.stats);
-  const project::Mode mode = renderer_->scene().mode;
-  drawn.pixels =
-      to_pixels(scaled_for_8_bits(drawn.image, mode), make_background(request.arguments, mode));
+  scene_.camera = drawn.camera;
+  scene_.width = coarse(width, request.coarseness);
+  scene_.height = coarse(height, request.coarseness);
+  scene_.samples = request.coarseness == 1 ? samples_ : 1;
+  const project::Image image = projector_->draw(drawn.stats);
+  // What stands around the picture is always in full.
+  drawn.image = request.arguments.figure.any()
+                    ? figure.around(enlarged(image, width, height), drawn.camera)
+                    : image;
+  drawn.width = drawn.image.width;
+  drawn.height = drawn.image.height;
+  drawn.pixels = to_pixels(scaled_for_8_bits(drawn.image, scene_.mode),
+                           make_background(request.arguments, scene_.mode));
   drawn.draw_ms = clock.milliseconds();
   if (request.verify > 0 && request.coarseness == 1) {
-    drawn.verified = project::verify(renderer_->scene(), drawn.image, request.verify);
+    drawn.verified = project::verify(scene_, image, request.verify);
   }
   drawn.facts = facts_;
   return drawn;

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "apps/render_arguments.h"
+#include "mesh/time_step.h"
 #include "preint/transfer_function_edit.h"
 #include "project/gl/context.h"
-#include "project/scene_renderer.h"
+#include "project/render.h"
 #include "project/verification.h"
 
 namespace tetraglass::apps::view {
@@ -55,8 +56,8 @@ struct SceneFacts {
   mesh::Box box;
   std::size_t cells = 0;  ///< drawn
   std::size_t not_drawn = 0;
-  std::vector<std::string> notes;  ///< of the import
-  std::vector<double> times;       ///< of the file's steps; empty where it has none
+  std::vector<std::string> notes;                ///< of the import
+  std::optional<mesh::NotedTimeStep> time_step;  ///< where the file has several
   std::vector<std::string> plan;
 };
 

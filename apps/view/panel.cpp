@@ -70,6 +70,23 @@ void show_file(const Viewer& viewer) {
   }
 }
 
+void choose_time(Viewer& viewer, PanelState& state) {
+  const SceneFacts* facts = viewer.facts();
+  if (facts == nullptr || !facts->time_step) return;
+  const mesh::NotedTimeStep& noted = *facts->time_step;
+  int step = static_cast<int>(noted.step);
+  const int last = static_cast<int>(noted.count) - 1;
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - 4 * ImGui::GetFontSize());
+  if (ImGui::SliderInt("##time", &step, 0, last, "step %d")) {
+    viewer.set_time_step(static_cast<std::size_t>(step));
+  }
+  ImGui::SameLine();
+  if (ImGui::Button(state.playing ? "stop" : "play", {3.4F * ImGui::GetFontSize(), 0}))
+    state.playing = !state.playing;
+  ImGui::SameLine();
+  show_text("time " + noted.time);
+}
+
 void choose_field(Viewer& viewer) {
   const SceneFacts* facts = viewer.facts();
   if (facts == nullptr) return;
@@ -174,7 +191,8 @@ void set_clip_planes(Viewer& viewer) {
   if (changed) viewer.change_scene().clip = planes;
 }
 
-void show_scene(Viewer& viewer) {
+void show_scene(Viewer& viewer, PanelState& state) {
+  choose_time(viewer, state);
   choose_field(viewer);
   std::string chosen = viewer.arguments().mode;
   if (choose("mode", {mode_names().begin(), mode_names().end()}, chosen)) viewer.set_mode(chosen);
@@ -189,6 +207,23 @@ void show_scene(Viewer& viewer) {
                                 : Names{"", "none", "flat", "smooth", "single", "weighted",
                                         "interpolated", "surface"},
                   &RenderArguments::shading);
+  }
+}
+
+void show_figure(Viewer& viewer) {
+  const auto flag = [&](const char* label, bool FigureArguments::*member) {
+    bool value = viewer.arguments().figure.*member;
+    if (ImGui::Checkbox(label, &value)) viewer.change_figure().*member = value;
+  };
+  flag("outline", &FigureArguments::outline);
+  ImGui::SameLine();
+  flag("axes", &FigureArguments::axes);
+  ImGui::SameLine();
+  flag("legend", &FigureArguments::legend);
+  std::array<char, 256> title{};
+  viewer.arguments().figure.title.copy(title.data(), title.size() - 1);
+  if (ImGui::InputText("title", title.data(), title.size())) {
+    viewer.change_figure().title = title.data();
   }
 }
 
@@ -253,10 +288,11 @@ void show_numbers(const Viewer& viewer, std::vector<Action>& actions) {
 void show_speed(const Viewer& viewer) {
   const Drawn* picture = viewer.picture();
   if (picture == nullptr) return ImGui::TextDisabled("reading ...");
-  ImGui::TextDisabled(
-      "%s", fmt::format("{:.0f} ms a picture, {:.1f} million cells/s", picture->draw_ms,
-                        static_cast<double>(picture->facts->cells) / picture->draw_ms / 1000)
-                .c_str());
+  std::string text =
+      fmt::format("{:.0f} ms, {:.2g} million cells/s", picture->draw_ms,
+                  static_cast<double>(picture->facts->cells) / picture->draw_ms / 1000);
+  if (const auto rate = viewer.moving_rate()) text += fmt::format("; moving: {:.1f}/s", *rate);
+  ImGui::TextDisabled("%s", text.c_str());
 }
 
 void show_camera(Viewer& viewer, std::vector<Action>& actions) {
@@ -289,9 +325,10 @@ std::vector<Action> draw_panel(Viewer& viewer, PanelState& state) {
   ImGui::BeginChild("sections", {0, -buttons});
   ImGui::PushItemWidth(-6 * ImGui::GetFontSize());
   show_file(viewer);
-  if (section("Scene", true)) show_scene(viewer);
+  if (section("Scene", true)) show_scene(viewer, state);
   if (section("Colors", true)) show_colors(viewer, state.plot);
   if (section("View", true)) show_camera(viewer, actions);
+  if (section("Figure", false)) show_figure(viewer);
   if (viewer.facts() != nullptr && section("Cut", false)) set_clip_planes(viewer);
   if (section("Method", false)) show_method(viewer);
   if (section("Numbers", false)) show_numbers(viewer, actions);

@@ -12,6 +12,7 @@ namespace tetraglass::apps::view {
 struct PanelState {
   bool shown = true;
   bool help = false;
+  bool playing = false;  ///< the time steps
   PlotState plot;
 };
 

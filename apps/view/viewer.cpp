@@ -9,7 +9,9 @@
 
 #include "apps/options.h"
 #include "apps/picture_files.h"
+#include "apps/transfer_function_input.h"
 #include "apps/view/saved_files.h"
+#include "apps/view/session.h"
 #include "preint/transfer_function_edit.h"
 #include "preint/transfer_function_file.h"
 
@@ -175,11 +177,16 @@ void Viewer::follow_transfer_function() {
                  arguments_.transfer_function);
 }
 
-void Viewer::set_time(const std::string& time) {
-  arguments_.import.time = time;
+void Viewer::set_time_step(std::size_t step) {
+  arguments_.import.time = fmt::format("index:{}", step);
   ++mesh_version_;
   ++scene_version_;
   view_changed();
+}
+
+void Viewer::next_time_step() {
+  if (facts_ == nullptr || !facts_->time_step) return;
+  set_time_step((facts_->time_step->step + 1) % facts_->time_step->count);
 }
 
 void Viewer::set_projector(const std::string& projector) {
@@ -214,6 +221,7 @@ void Viewer::accept(std::unique_ptr<Drawn> drawn) {
     return;
   }
   pacing_.finished(drawn->draw_ms);
+  note_rate();
   if (drawn->mesh_version != mesh_version_) return;  // of a file that is no longer open
   const bool framed = framing_ && drawn->framing_version == framing_version_;
   if (!camera_ || framed) {
@@ -238,6 +246,21 @@ void Viewer::accept(std::unique_ptr<Drawn> drawn) {
     verify_ = 0;
   }
   picture_ = std::move(drawn);
+}
+
+void Viewer::note_rate() {
+  constexpr double kPause = 500;  // ms without a picture: another movement
+  constexpr std::size_t kMost = 30;
+  if (pacing_.complete()) return;
+  if (!moving_ms_.empty() && now_ms_ - moving_ms_.back() > kPause) moving_ms_.clear();
+  moving_ms_.push_back(now_ms_);
+  if (moving_ms_.size() > kMost) moving_ms_.erase(moving_ms_.begin());
+}
+
+std::optional<double> Viewer::moving_rate() const {
+  if (moving_ms_.size() < 5 || moving_ms_.back() <= moving_ms_.front()) return std::nullopt;
+  return 1000 * static_cast<double>(moving_ms_.size() - 1) /
+         (moving_ms_.back() - moving_ms_.front());
 }
 
 void Viewer::verify(int pixels) {
@@ -275,6 +298,27 @@ std::vector<std::string> Viewer::save_beside(const std::string& output) const {
   const std::string file = transfer_function_file(output);
   preint::write_transfer_function(*arguments_.own_transfer_function, file);
   return {file};
+}
+
+std::vector<std::string> Viewer::save_session() const {
+  const std::string stem = std::filesystem::path(arguments_.input).stem().string();
+  const std::string picture = free_name(stem, {".png", ".tf.json", ".session.json"}) + ".png";
+  std::vector<std::string> files = save_beside(picture);
+  files.insert(files.begin(),
+               std::filesystem::path(picture).replace_extension(".session.json").string());
+  // It is opened again from any folder.
+  const auto anywhere = [](std::string& file) {
+    file = std::filesystem::absolute(file).lexically_normal().string();
+  };
+  Session session{command(picture), *camera_};
+  for (std::size_t i = 1; i < session.words.size(); ++i) {
+    const std::string& option = session.words[i - 1];
+    const bool is_file =
+        i == 1 || option == "--lights" || (option == "--tf" && !is_preset_name(session.words[i]));
+    if (is_file) anywhere(session.words[i]);
+  }
+  write_session(session, files.front());
+  return files;
 }
 
 CopiedCommand Viewer::copy_command() const {

@@ -69,7 +69,11 @@ class Viewer {
   void set_mode(const std::string& mode);
   /// As --mode lists them, round and round.
   void next_mode();
-  void set_time(const std::string& time);
+  /// Counted from 0, of those of the file.
+  void set_time_step(std::size_t step);
+  /// Round and round.
+  void next_time_step();
+  [[nodiscard]] FigureArguments& change_figure() { return change_scene().figure; }
   void set_projector(const std::string& projector);
 
   /// What to draw next.
@@ -84,6 +88,8 @@ class Viewer {
   [[nodiscard]] const Drawn* picture() const { return picture_.get(); }
   /// Why the last picture could not be drawn; empty where it could.
   [[nodiscard]] const std::string& error() const { return error_; }
+  /// Pictures a second while the view or the scene last moved; nothing before it did for a while.
+  [[nodiscard]] std::optional<double> moving_rate() const;
   [[nodiscard]] const SceneFacts* facts() const { return facts_.get(); }
 
   /// Checks so many random pixels of the picture in full.
@@ -101,9 +107,14 @@ class Viewer {
   /// working folder. Throws WriteError.
   [[nodiscard]] CopiedCommand copy_command() const;
 
+  /// Writes what `view` opens again (session.h) to the working folder. Returns the files. Throws
+  /// WriteError.
+  [[nodiscard]] std::vector<std::string> save_session() const;
+
  private:
   void view_changed();
   void follow_transfer_function();
+  void note_rate();
   [[nodiscard]] std::vector<std::string> save_beside(const std::string& output) const;
   void set_framing(const Framing& framing);
 
@@ -117,6 +128,7 @@ class Viewer {
   int width_ = 0;
   int height_ = 0;
   double now_ms_ = 0;
+  std::vector<double> moving_ms_;  // when pictures came while it moved
   Pacing pacing_;
   TransferFunctionEditor editor_;
   int verify_ = 0;

@@ -23,6 +23,7 @@
 #include "apps/view/panel.h"
 #include "apps/view/saved_files.h"
 #include "apps/view/style.h"
+#include "apps/view/window_platform.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
 
@@ -82,6 +83,7 @@ class ViewerWindow {
   void run();
 
  private:
+  Drawing::MakeContext context_maker();
   void wait_for_events();
   void take_picture();
   void start_drawing();
@@ -93,6 +95,7 @@ class ViewerWindow {
   void follow_keys();
   void perform(Action action);
   void copy_command();
+  void save_session();
   void perform_when_complete();
   void save_window();
   void tell(const std::string& text) { notice_ = text; }
@@ -112,6 +115,7 @@ class ViewerWindow {
   bool window_picture_due_ = false;
   bool started_ = false;
   std::string notice_;
+  HiddenWindow hidden_;
   Drawing drawing_;  // dies first: it wakes the window
 };
 
@@ -130,10 +134,17 @@ ViewerWindow::ViewerWindow(const RenderArguments& arguments, const std::vector<T
     : window_(title_of(arguments.input), first_size(arguments).x(), first_size(arguments).y()),
       interface_(window_),
       viewer_(arguments, typed),
-      drawing_([] { glfwPostEmptyEvent(); }) {
+      drawing_([] { glfwPostEmptyEvent(); }, context_maker(), is_hardware(window_.renderer())) {
   const Eigen::Vector2i size = first_size(arguments);
   const auto beside = static_cast<int>(kPanelWidth * font_size(window_) / window_.pixel_ratio());
   glfwSetWindowSize(window_.handle(), size.x() + beside, size.y());
+}
+
+/// Where the display has OpenGL for the gl projector.
+Drawing::MakeContext ViewerWindow::context_maker() {
+  glfwMakeContextCurrent(window_.handle());
+  if (!hidden_.available()) return {};
+  return [this] { return project::gl::Context::create(hidden_.platform()); };
 }
 
 void ViewerWindow::run() {
@@ -145,6 +156,7 @@ void ViewerWindow::run() {
     if (window_.framebuffer().minCoeff() > 0) show_frame();
     start_drawing();
     perform_when_complete();
+    if (panel_.playing && viewer_.complete()) viewer_.next_time_step();
   }
 }
 
@@ -320,6 +332,11 @@ void ViewerWindow::perform(Action action) {
       break;
     case Action::copy_command:
       return copy_command();
+    case Action::save_session:
+      return save_session();
+    case Action::play:
+      panel_.playing = !panel_.playing;
+      break;
     case Action::verify:
       return viewer_.verify(kPixelsVerified);
     case Action::toggle_panel:
@@ -334,7 +351,20 @@ void ViewerWindow::perform(Action action) {
   }
 }
 
+void ViewerWindow::save_session() {
+  if (!viewer_.camera()) return;
+  try {
+    for (const std::string& file : viewer_.save_session()) {
+      print_result(file);
+      tell("saved " + file);
+    }
+  } catch (const base::Error& error) {
+    tell(error.what());
+  }
+}
+
 void ViewerWindow::copy_command() {
+  if (!viewer_.camera()) return;
   try {
     const CopiedCommand copied = viewer_.copy_command();
     glfwSetClipboardString(window_.handle(), copied.line.c_str());

@@ -75,6 +75,10 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
       "the gl projector needs an OpenGL context; use --context osmesa or egl");
 }
 
+std::unique_ptr<Context> Context::create(std::unique_ptr<Platform> platform) {
+  return std::unique_ptr<Context>(new Context(std::move(platform)));
+}
+
 Context::Context(std::unique_ptr<Platform> platform)
     : platform_(std::move(platform)), functions_(std::make_unique<Functions>()) {
   make_current();

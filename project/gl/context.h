@@ -29,6 +29,10 @@ class Context {
   /// Throws UnavailableError, with the reason, where no such context can be had.
   [[nodiscard]] static std::unique_ptr<Context> create(ContextKind kind);
 
+  /// On a platform of the caller's, a window's say. Throws UnavailableError where its OpenGL lacks
+  /// a function.
+  [[nodiscard]] static std::unique_ptr<Context> create(std::unique_ptr<Platform> platform);
+
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

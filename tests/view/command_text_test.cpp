@@ -25,6 +25,7 @@ Parsed parse(const std::vector<std::string>& words) {
   app.add_option("INPUT", parsed.arguments.input);
   app.add_option("-o", parsed.arguments.outputs);
   add_scene_options(&app, parsed.arguments);
+  add_figure_options(&app, parsed.arguments.figure);
   add_camera_options(&app, parsed.arguments);
   add_method_options(&app, parsed.arguments);
   std::vector<std::string> reversed(words.rbegin(), words.rend());
@@ -46,6 +47,7 @@ TEST(CommandText, EveryOptionOfASceneSurvives) {
   CLI::App app;
   RenderArguments arguments;
   add_scene_options(&app, arguments);
+  add_figure_options(&app, arguments.figure);
   add_camera_options(&app, arguments);
   add_method_options(&app, arguments);
   // Options that check what they are given.

@@ -65,8 +65,12 @@ class WindowTest : public testing::Test {
 
   /// Starts the program and waits for its window and its first picture.
   void open(const std::vector<std::string>& options) {
-    std::vector<std::string> words = {TETRAGLASS_PROGRAM, "view", "sphere.vtu", "--size",
-                                      fmt::format("{}x{}", kPictureWidth, kPictureHeight)};
+    start({"sphere.vtu", "--size", fmt::format("{}x{}", kPictureWidth, kPictureHeight)}, options);
+  }
+
+  void start(const std::vector<std::string>& first, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words = {TETRAGLASS_PROGRAM, "view"};
+    words.insert(words.end(), first.begin(), first.end());
     words.insert(words.end(), options.begin(), options.end());
     program_ = std::make_unique<Beside>(words, [this] {
       ::setenv("DISPLAY", display_->name().c_str(), 1);
@@ -206,6 +210,32 @@ TEST_F(WindowTest, ThePictureIsThatOfTheCopiedCommandLine) {
   EXPECT_EQ(iso.find("--tf"), std::string::npos) << iso;
   EXPECT_LE(difference(surface, rendered(iso, "surface")), kOneOf255);
   quit();
+}
+
+// A session opens as it was left; the gl projector draws on the display's OpenGL.
+TEST_F(WindowTest, ASessionOpensAgain) {
+  ASSERT_NO_FATAL_FAILURE(open({"--projector", "gl", "--clip", "1,0,0,0.25"}));
+  const std::vector<Eigen::Vector2i> points = control_points(picture(ask("F12")));
+  ASSERT_GE(points.size(), 3U);
+  drag(points[1], points[1] + Eigen::Vector2i(0, 20));
+  ASSERT_EQ(xdotool("key p key 5"), 0);
+  (void)ask("s", 2);
+  const Image before = picture("sphere-1.png");
+  EXPECT_LE(difference(before, rendered(ask("c", 2), "command")), kOneOf255);
+  const std::string session = ask("ctrl+s", 2).empty() ? "" : "sphere-3.session.json";
+  ASSERT_TRUE(fs::exists(folder_.file(session)));
+  quit();
+  ASSERT_NO_FATAL_FAILURE(start({session}));
+  (void)ask("s", 2);
+  EXPECT_LE(difference(before, picture("sphere-4.png")), kOneOf255);
+  quit();
+  // Its camera alone is good for render.
+  const Image rest = rendered(
+      "tetraglass render sphere.vtu --size 300x700 --projector gl --clip "
+      "1,0,0,0.25 --tf sphere-3.tf.json -o rest.png --camera " +
+          session,
+      "rest");
+  EXPECT_LE(difference(before, rest), kOneOf255);
 }
 
 TEST_F(WindowTest, TinyAndHiddenWindowsAndAFileThatVanishes) {
