@@ -111,11 +111,14 @@ TEST(CommandText, AShellReadsTheSameWords) {
   EXPECT_EQ(tests::read_text(folder.file("words")), expected);
 }
 
-TEST(Controls, HelpTellsAllOfThem) {
+TEST(Controls, HelpAndGuideTellAllOfThem) {
   const std::string help = tests::run_program("view --help").out;
+  const std::string guide = tests::read_text(TETRAGLASS_SOURCE_DIR "/docs/viewing.md");
   for (const Control& control : controls()) {
-    EXPECT_NE(help.find(control.input), std::string::npos) << control.input;
-    EXPECT_NE(help.find(control.effect), std::string::npos) << control.effect;
+    for (const std::string& text : {help, guide}) {
+      EXPECT_NE(text.find(control.input), std::string::npos) << control.input;
+      EXPECT_NE(text.find(control.effect), std::string::npos) << control.effect;
+    }
   }
 }
 

@@ -101,6 +101,20 @@ TEST_F(ViewerTest, AtRestThePictureIsThatOfRender) {
   EXPECT_TRUE(viewer.arguments().own_transfer_function);
 }
 
+// Frames of one scene are drawn by what was set up for the first one.
+TEST_F(ViewerTest, AScenesSetUpIsKept) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  const SceneFacts* facts = viewer.facts();
+  viewer.orbit({0.1, 0.2});
+  viewer.resize(70, 55);
+  finish(viewer);
+  EXPECT_EQ(viewer.picture()->scene_ms, 0);
+  EXPECT_EQ(viewer.facts(), facts);
+  EXPECT_EQ(viewer.picture()->width, 70);
+}
+
 TEST_F(ViewerTest, MovingPicturesAreCoarserAndSaidSo) {
   Viewer viewer(arguments(), {});
   viewer.resize(90, 70);
