@@ -250,8 +250,10 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "then lit: single | weighted | interpolated | surface (see docs/lighting.md)");
   app->add_option("--lights", a.lights,
                   "FILE.json of directional, point and rectangle lights. Default: a headlight");
-  app->add_option("--gradient", a.gradient,
-                  "vertex (default: interpolated) | cell: the normals of --shading");
+  app->add_option(
+      "--gradient", a.gradient,
+      "vertex (default: interpolated) | cell: the normals of --shading; of grids central "
+      "(default: differences one point up and down) | sobel (smoothed)");
   app->add_option("--modulate", a.modulate,
                   "G: opacity times min(1, |gradient| / G), shows boundaries");
   app->add_option("--tf", a.transfer_function, transfer_function_help())->capture_default_str();

@@ -171,9 +171,20 @@ void set_light(const RenderArguments& arguments, project::Scene& scene) {
        {"interpolated", Shading::interpolated},
        {"surface", Shading::surface}});
   if (!arguments.gradient.empty()) {
-    scene.gradient =
-        parse_choice<GradientOf>(arguments.gradient, "--gradient",
-                                 {{"vertex", GradientOf::vertex}, {"cell", GradientOf::cell}});
+    scene.gradient = parse_choice<GradientOf>(arguments.gradient, "--gradient",
+                                              {{"vertex", GradientOf::vertex},
+                                               {"cell", GradientOf::cell},
+                                               {"central", GradientOf::central},
+                                               {"sobel", GradientOf::sobel}});
+    const bool of_grid =
+        scene.gradient == GradientOf::central || scene.gradient == GradientOf::sobel;
+    if (of_grid != draws_grid(arguments)) {
+      throw base::UsageError(of_grid
+                                 ? "--gradient central and sobel are for --projector slices "
+                                   "and grid-reference; cells have vertex and cell"
+                                 : "--gradient vertex and cell are those of cells; --projector " +
+                                       arguments.projector + " has central and sobel");
+    }
     if (scene.shading == Shading::none) {
       throw base::UsageError("--gradient is that of --shading, which is none here");
     }

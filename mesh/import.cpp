@@ -329,7 +329,9 @@ TetMesh make_tetrahedra(MeshData data, bool may_be_points, const ImportOptions& 
       }
       return fill_points(data, notes);
   }
-  if (options.grid_only) return points_of_grid(std::move(data));
+  // Tetrahedra may be those of a grid's voxels: that takes a look at all of them.
+  const bool has_voxels = report.input_cells.count(CellType::tetra) == 0;
+  if (options.grid_only && has_voxels) return points_of_grid(std::move(data));
   if (const std::size_t unused = unused_points(data); unused > 0) {
     notes.push_back(fmt::format("{} points that no cell uses are left out", unused));
   }

@@ -103,12 +103,13 @@ Material TransferFunction::material_at(double value) const {
   if (i == 0) return points_.front().material;
   if (i == points_.size()) return points_.back().material;
   const double span = points_[i].value - points_[i - 1].value;
-  const double a = (points_[i].value - value) / span;
-  const double b = (value - points_[i - 1].value) / span;
+  const double part = (value - points_[i - 1].value) / span;
   const Material& lower = points_[i - 1].material;
   const Material& upper = points_[i].material;
-  return {a * lower.ambient + b * upper.ambient, a * lower.diffuse + b * upper.diffuse,
-          a * lower.specular + b * upper.specular, a * lower.shininess + b * upper.shininess};
+  // Where both are the same, so is what lies between, to the last bit.
+  const auto between = [&](double a, double b) { return a + part * (b - a); };
+  return {between(lower.ambient, upper.ambient), between(lower.diffuse, upper.diffuse),
+          between(lower.specular, upper.specular), between(lower.shininess, upper.shininess)};
 }
 
 TransferFunction materials_as_colors(const TransferFunction& tf) {

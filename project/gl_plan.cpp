@@ -13,9 +13,10 @@ namespace {
 void check_faces12(const Scene& scene, const GlRequest& request, const GlPlan& plan) {
   const std::string layout = to_string(plan.layout);
   if (has_faces12(plan.layout)) {
-    if (scene.mode == Mode::iso && scene.shading == Shading::smooth) {
-      throw base::UsageError("--layout " + layout +
-                             " has one gradient per cell: use --shading flat, or --layout indexed");
+    if (scene.shading != Shading::none && !has_cell_normals(scene)) {
+      throw base::UsageError(
+          "--layout " + layout +
+          " has one gradient per cell: use --gradient cell, or --layout indexed");
     }
     if (plan.interpolate_lengths && scene.camera.parallel) {
       throw base::UsageError("--perspective affine is for perspective views");

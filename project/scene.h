@@ -31,8 +31,15 @@ enum class Shading {
   surface        ///< one normal a segment, that at the value of largest extinction
 };
 
-/// Where the gradients of the field are taken.
-enum class GradientOf { vertex, cell };
+/// Where the gradients of the field are taken: of cells, those of each, or interpolated between the
+/// vertices; of the trilinear field of a grid (any but `sobel`: central) by differences between the
+/// places one point up and down.
+enum class GradientOf {
+  vertex,
+  cell,
+  central,
+  sobel  ///< ... smoothed by (1, 2, 1) / 4 along the other two axes (meissner2002 section 2.1)
+};
 
 /// What is wanted: which mesh and field, seen how, from where. Says nothing of the way to draw it.
 struct Scene {

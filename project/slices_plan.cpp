@@ -73,21 +73,6 @@ void check_classification(const Scene& scene, const SlicesPlan& plan) {
   }
 }
 
-/// Surfaces are lit as of the default material.
-void check_materials(const Scene& scene) {
-  if (scene.mode != Mode::iso || scene.shading == Shading::none) return;
-  constexpr preint::Material kDefault;
-  for (const preint::ControlPoint& point : scene.transfer_function.points()) {
-    const preint::Material& material = point.material;
-    if (material.ambient != kDefault.ambient || material.diffuse != kDefault.diffuse ||
-        material.specular != kDefault.specular || material.shininess != kDefault.shininess) {
-      throw base::UsageError(
-          "--projector slices has one material for all surfaces, and the transfer function has "
-          "others: use --projector cpu, or --shading none");
-    }
-  }
-}
-
 void plan_memory(const SlicesRequest& request, SlicesPlan& plan) {
   plan.compress = request.compress.value_or(false);
   plan.brick_bytes = request.brick_bytes.value_or(0);
@@ -117,7 +102,6 @@ SlicesPlan plan_slices(const Scene& scene, const SlicesRequest& request,
   plan.distance = plan_distance(scene, request, plan);
   check_classification(scene, plan);
   plan_memory(request, plan);
-  check_materials(scene);
   const std::string where = plan.stack == Stack::textures ? "2D textures, planes of the grid"
                             : plan.stack == Stack::shells && !scene.camera.parallel
                                 ? "a 3D texture, spheres about the eye"

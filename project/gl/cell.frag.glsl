@@ -85,10 +85,37 @@ vec4 looked_up(Segment seg) {
 #include "medium.glsl"
 #endif
 
-#ifdef MODE_ISO
 #if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
 #include "shade.glsl"
+
+// Of a medium, and of surfaces that a table does not tell apart.
+uniform vec4 material;
+Material the_material() { return Material(material.x, material.y, material.z, material.w); }
+
+vec3 gradient_at(vec2 position, float depth) {
+#ifdef SHADING_FLAT
+  return cell_gradient;
+#else
+  return interpolated_gradient(position, depth);
 #endif
+}
+
+// A color (RGB associated to A) at the part t of the segment.
+vec3 lit(Material m, vec4 color, Segment seg, float t, vec2 position) {
+  float depth = mix(seg.entry, seg.exit, t);  // z - focus
+  vec2 ray = (position - picture_middle) * vec2(pixel_pitch, -pixel_pitch);
+#ifdef PARALLEL
+  vec3 to_viewer = vec3(0, 0, -1);
+  vec3 at = vec3(ray, depth);
+#else
+  vec3 to_viewer = -normalize(vec3(ray, 1));
+  vec3 at = vec3(ray * (depth + 1 / focus_inverse), depth);
+#endif
+  return shade(color.rgb, color.a, m, gradient_at(position, depth), at, to_viewer);
+}
+#endif
+
+#ifdef MODE_ISO
 #ifndef TABLE_2D
 #include "crossing.glsl"
 #endif
@@ -102,38 +129,14 @@ float intensity(Segment seg, float t) {
 #endif
 }
 
-#if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
-#ifdef TABLE_2D
-// The table does not tell which surface it was.
-uniform vec4 material;
-Material surface_material(int i) { return Material(material.x, material.y, material.z, material.w); }
-#endif
-
-vec3 gradient_at(vec2 position, float depth) {
-#ifdef SHADING_FLAT
-  return cell_gradient;
-#else
-  return interpolated_gradient(position, depth);
-#endif
-}
-#endif
-
-// The color of surface i (RGB associated to A) met at the part t of the segment, lit.
-vec3 lit(int i, vec4 color, Segment seg, float t, vec2 position) {
-#if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
-  float depth = mix(seg.entry, seg.exit, t);  // z - focus
-  vec2 ray = (position - picture_middle) * vec2(pixel_pitch, -pixel_pitch);
-#ifdef PARALLEL
-  vec3 to_viewer = vec3(0, 0, -1);
-  vec3 at = vec3(ray, depth);
-#else
-  vec3 to_viewer = -normalize(vec3(ray, 1));
-  vec3 at = vec3(ray * (depth + 1 / focus_inverse), depth);
-#endif
-  return intensity(seg, t) * shade(color.rgb, color.a, surface_material(i), gradient_at(position, depth), at,
-                                   to_viewer);
-#else
+// The color of surface i (RGB associated to A) met at the part t of the segment.
+vec3 surface_light(int i, vec4 color, Segment seg, float t, vec2 position) {
+#if !defined(SHADING_FLAT) && !defined(SHADING_SMOOTH)
   return intensity(seg, t) * color.rgb;
+#elif defined(TABLE_2D)
+  return intensity(seg, t) * lit(the_material(), color, seg, t, position);
+#else
+  return intensity(seg, t) * lit(surface_material(i), color, seg, t, position);
 #endif
 }
 
@@ -149,7 +152,7 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
   // The table tells color and opacity but not where: the middle stands for that. Segments of different cells
   // do not overlap, so any of its points will do to tell which is nearer.
   vec4 met = looked_up(seg);
-  color = vec4(lit(0, met, seg, 0.5, position), met.a);
+  color = vec4(surface_light(0, met, seg, 0.5, position), met.a);
 #ifdef OPAQUE
   write_depth(seg, 0.5);
 #endif
@@ -165,7 +168,7 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
     float t = clamp((surface_place(i) - seg.front) / (seg.back - seg.front), 0.0, 1.0);
     float opacity = surface_opacity(i);
     vec4 surface = vec4(opacity * surface_color(i), opacity);
-    color += (1 - color.a) * vec4(lit(i, surface, seg, t, position), opacity);
+    color += (1 - color.a) * vec4(surface_light(i, surface, seg, t, position), opacity);
 #ifdef OPAQUE
     write_depth(seg, t);
     break;
@@ -219,12 +222,15 @@ void main() {
 #else
   result = radiance(seg.front, seg.back, seg.size);
 #endif
+#if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
+  result.rgb = lit(the_material(), result, seg, 0.5, position);
+#endif
 #endif
 #ifdef GATHER_FRAGMENTS
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint place = imageLoad(firsts, pixel).x + imageAtomicAdd(counts, pixel, 1u);
   depths[place] = seg.entry + seg.exit;
-  lights[place] = result;
+  fragments[place] = result;
 #endif
 #endif
 }

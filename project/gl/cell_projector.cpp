@@ -64,6 +64,7 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       normalization_(scene),
       drawn_(shown_cells(scene, normalization_.values)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
+      lights_(context, scene),
       counter_(context) {
   const LayoutBytes bytes = cells_->bytes();
   stats.add(Effect::cells, bytes.cells);
@@ -77,25 +78,6 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
     surfaces_.emplace(context, Texel::rgba32f);
     surfaces_->upload(surface_texels(scene, normalization_), "isosurfaces");
   }
-  if (scene.lights) {
-    sources_ = light_sources(*scene.lights, mesh::bounds(*scene.mesh), scene.transfer_function);
-    lights_.emplace(context, Texel::rgba32f);
-  }
-}
-
-void CellProjector::place_lights(const Frame& frame, const ViewUniforms& view) {
-  if (!lights_) return;
-  const double radius = normalization_.radius;
-  std::vector<Eigen::Vector4f> texels;
-  for (const LightSource& source : sources_) {
-    const LightSource seen = viewed(source, frame, view.focus() * radius, radius);
-    texels.emplace_back();
-    texels.back() << seen.place.cast<float>(), seen.far_away ? 0.0F : 1.0F;
-    texels.emplace_back();
-    texels.back() << seen.color.cast<float>().matrix(), 0.0F;
-  }
-  lights_->upload(texels, "lights");
-  lights_->bind(Units::kLights);
 }
 
 void CellProjector::make_tables(Stats& stats) {
@@ -148,15 +130,12 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   program.set("table_length", table_length_);
   program.set("surfaces", Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
-  program.set("lights", Units::kLights);
   program.set("ray_ends", Units::kRayEnds);
-  program.set("light_count", static_cast<int>(sources_.size()));
-  if (scene_.lights) {
-    program.set("ambient_light", Eigen::Vector3f(scene_.lights->ambient.cast<float>().matrix()));
-  }
-  if (!scene_.isosurfaces.empty()) {
-    program.set("material", material_texel(scene_, scene_.isosurfaces[0].value));
-  }
+  lights_.set_uniforms(program);
+  // Of a medium there is one (plan_light).
+  const double value = scene_.isosurfaces.empty() ? scene_.transfer_function.points()[0].value
+                                                  : scene_.isosurfaces[0].value;
+  program.set("material", material_texel(scene_, value));
   return program;
 }
 

@@ -8,11 +8,11 @@
 #include "project/camera.h"
 #include "project/gl/cell_layout.h"
 #include "project/gl/fragment_lists.h"
+#include "project/gl/light_texels.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/mesh_buffers.h"
 #include "project/gl/view_uniforms.h"
 #include "project/image.h"
-#include "project/light/light_sources.h"
 #include "project/opaque_layers.h"
 #include "project/plan.h"
 #include "project/stats.h"
@@ -49,7 +49,6 @@ class CellProjector {
   bool order_cells(const Frame& frame, Stats& stats);
   void bind() const;
   void set_blending() const;
-  void place_lights(const Frame& frame, const ViewUniforms& view);
   /// Rays end where they are told, if they are told.
   [[nodiscard]] Image draw_rays(const Frame& frame, const ViewUniforms& view, RayEnds ends,
                                 Stats& stats);
@@ -69,8 +68,7 @@ class CellProjector {
   std::unique_ptr<CellLayout> cells_;
   std::optional<MediumBuffers> medium_;
   std::optional<TextureBuffer> surfaces_;
-  std::optional<TextureBuffer> lights_;  // two texels each, see shade.glsl
-  std::vector<LightSource> sources_;
+  LightTexels lights_;
   std::optional<Table> table_;
   float table_length_ = 1;  // in normalized units
   FragmentCounter counter_;

@@ -206,7 +206,7 @@ Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Pla
                            const std::vector<std::uint32_t>& drawn)
     : plan_(plan.gl),
       needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty() || !scene.opaque.empty() ||
-                   scene.depth_cue || plan.sort == SortMethod::fragments),
+                   scene.depth_cue || is_lit_medium(scene) || plan.sort == SortMethod::fragments),
       count_(drawn.size()),
       arrays_(context) {
   constexpr std::size_t kMost = std::numeric_limits<int>::max() / kVertices;

@@ -3,4 +3,4 @@
 layout(binding = 0, r32ui) uniform uimage2D counts;            // gathered so far
 layout(binding = 1, r32ui) readonly uniform uimage2D firsts;
 layout(binding = 0, std430) buffer Depths { float depths[]; };
-layout(binding = 1, std430) buffer Lights { vec4 lights[]; };  // associated color and opacity
+layout(binding = 1, std430) buffer Lights { vec4 fragments[]; };  // associated color and opacity

@@ -10,8 +10,7 @@ IndexedCells::IndexedCells(const Context& context, const Scene& scene, const Pla
     : strip_(plan.gl.layout == Layout::strip),
       sorted_(sorts_cells(plan)),
       count_(drawn.size()),
-      mesh_(context, scene, normalization,
-            scene.mode == Mode::iso && scene.shading == Shading::smooth),
+      mesh_(context, scene, normalization, plan.gradients && !has_cell_normals(scene)),
       faces_(context, strip_) {
   // Without an order the cells to draw are still told by their numbers, unless all are.
   if (sorted_ || drawn.size() != scene.mesh->cells.size()) {

@@ -8,9 +8,9 @@ void swap(int a, int b) {
   float depth = depths[a];
   depths[a] = depths[b];
   depths[b] = depth;
-  vec4 light = lights[a];
-  lights[a] = lights[b];
-  lights[b] = light;
+  vec4 light = fragments[a];
+  fragments[a] = fragments[b];
+  fragments[b] = light;
 }
 
 // Lets the segment at `root` of the heap of `count` from `first` on sink to its place: deeper ones are above.
@@ -35,6 +35,6 @@ void main() {
     sink(first, 0, last);
   }
   vec4 sum = vec4(0);
-  for (int i = first; i < first + count; ++i) sum += (1 - sum.a) * lights[i];
+  for (int i = first; i < first + count; ++i) sum += (1 - sum.a) * fragments[i];
   result = sum;
 }

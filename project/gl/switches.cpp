@@ -64,9 +64,11 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
   if (scene.mode == Mode::iso) {
     if (draws_opaque_surfaces(scene)) names.emplace_back("OPAQUE");
     if (scene.depth_cue) names.emplace_back("DEPTH_CUE");
+  }
+  // The gradient of a field that is constant in each cell is 0: nothing of it is lit.
+  if (scene.shading != Shading::none && scene.field.location == mesh::Location::point) {
+    names.emplace_back(has_cell_normals(scene) ? "SHADING_FLAT" : "SHADING_SMOOTH");
     if (scene.lights) names.emplace_back("LIGHTS");
-    if (scene.shading == Shading::flat) names.emplace_back("SHADING_FLAT");
-    if (scene.shading == Shading::smooth) names.emplace_back("SHADING_SMOOTH");
   }
   return names;
 }

@@ -1,6 +1,7 @@
 #include "project/light/plan_light.h"
 
 #include <array>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -32,14 +33,19 @@ void check_scene(const Scene& scene) {
   }
 }
 
+using Coefficients = std::array<double, 4>;
+
+Coefficients coefficients(const preint::Material& m) {
+  return {m.ambient, m.diffuse, m.specular, m.shininess};
+}
+
 /// A table of isosurfaces does not tell which surface was met.
-void check_materials(const Scene& scene) {
-  const auto coefficients = [&](const preint::Isosurface& surface) {
-    const preint::Material m = scene.transfer_function.material_at(surface.value);
-    return std::array{m.ambient, m.diffuse, m.specular, m.shininess};
+void check_materials_of_surfaces(const Scene& scene) {
+  const auto of = [&](const preint::Isosurface& surface) {
+    return coefficients(scene.transfer_function.material_at(surface.value));
   };
   for (const preint::Isosurface& surface : scene.isosurfaces) {
-    if (coefficients(surface) != coefficients(scene.isosurfaces[0])) {
+    if (of(surface) != of(scene.isosurfaces[0])) {
       throw base::UsageError(
           "--integrator table2d has one material for all isosurfaces, and the transfer function "
           "gives them several: use --integrator exact");
@@ -47,17 +53,37 @@ void check_materials(const Scene& scene) {
   }
 }
 
-void check_projector(const Scene& scene, Projector projector) {
-  if (projector == Projector::cpu || projector == Projector::reference) return;
-  const std::string name = "--projector " + to_string(projector);
-  if (is_lit_medium(scene)) {
-    throw base::UsageError(name + " lights isosurfaces only; use --projector cpu");
+/// Projectors on OpenGL light each segment or slab of a medium once.
+void check_medium_of_gl(const Scene& scene, const Plan& plan) {
+  const std::string name = "--projector " + to_string(plan.projector);
+  if (scene.shading != Shading::single) {
+    throw base::UsageError(
+        name +
+        " lights the segments of a medium once each: use --shading single, or --projector cpu");
   }
+  const std::vector<preint::ControlPoint>& points = scene.transfer_function.points();
+  for (const preint::ControlPoint& point : points) {
+    if (coefficients(point.material) != coefficients(points[0].material)) {
+      throw base::UsageError(
+          name +
+          " has one material for a medium, and the transfer function has several: use "
+          "--projector cpu");
+    }
+  }
+  if (plan.projector == Projector::slices && plan.slices.classify == Classify::pre) {
+    throw base::UsageError(
+        "--classify pre has colors without values: light needs post or integrated");
+  }
+}
+
+void check_projector(const Scene& scene, const Plan& plan) {
+  if (plan.projector == Projector::cpu || plan.projector == Projector::reference) return;
   if (scene.modulation) {
-    throw base::UsageError(name + " has no --modulate; use --projector cpu");
+    throw base::UsageError("--projector " + to_string(plan.projector) +
+                           " has no --modulate; use --projector cpu");
   }
-  if (scene.lights && projector == Projector::slices) {
-    throw base::UsageError(name + " has a headlight only; use --projector cpu for --lights");
+  if (is_lit_medium(scene) && plan.projector != Projector::grid_reference) {
+    check_medium_of_gl(scene, plan);
   }
 }
 
@@ -65,9 +91,9 @@ void check_projector(const Scene& scene, Projector projector) {
 
 void plan_light(const Scene& scene, Plan& plan) {
   check_scene(scene);
-  check_projector(scene, plan.projector);
+  check_projector(scene, plan);
   if (scene.shading != Shading::none && plan.integrator == Integrator::table2d)
-    check_materials(scene);
+    check_materials_of_surfaces(scene);
   plan.gradients = scene.shading != Shading::none;
   if (!plan.gradients) {
     plan.reasons.emplace_back("shading: none, no gradients stored");

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/LU>
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -24,6 +25,8 @@ using preint::Color;
 using Rgba = Eigen::Array4d;
 
 constexpr double kTolerance = 1e-12;
+// Of lit media, whose normals and highlights have edges.
+constexpr double kLitTolerance = 1e-8;
 constexpr int kMostHalvings = 40;
 
 /// The part [begin, end] of a piece where the transfer function is linear in the value.
@@ -54,25 +57,29 @@ struct LinearPart {
     }
     return sum * (end - begin) * length;
   }
-  [[nodiscard]] Color light_by_one_rule(double begin, double end) const {
+  /// `color_of(t, Medium)`: the color at a position, lit or not.
+  template <class F>
+  [[nodiscard]] Color light_by_one_rule(double begin, double end, const F& color_of) const {
     Color sum = Color::Zero();
     for (const preint::GaussNode& node : preint::kGauss10) {
       const double t = begin + node.x * (end - begin);
       const preint::Medium medium = at(t);
-      sum += node.weight * medium.extinction * std::exp(-depth(begin, t)) * medium.color;
+      sum += node.weight * medium.extinction * std::exp(-depth(begin, t)) * color_of(t, medium);
     }
     return sum * (end - begin) * length;
   }
   /// What reaches `begin` of it.
-  [[nodiscard]] Color light(double begin, double end, int halvings = kMostHalvings) const {
+  template <class F>
+  [[nodiscard]] Color light(double begin, double end, double tolerance, const F& color_of,
+                            int halvings = kMostHalvings) const {
     const double middle = 0.5 * (begin + end);
     const double first_depth = depth(begin, middle);
-    const Color whole = light_by_one_rule(begin, end);
-    const Color halves =
-        light_by_one_rule(begin, middle) + std::exp(-first_depth) * light_by_one_rule(middle, end);
-    if (halvings == 0 || (whole - halves).abs().maxCoeff() <= kTolerance) return halves;
-    return light(begin, middle, halvings - 1) +
-           std::exp(-first_depth) * light(middle, end, halvings - 1);
+    const Color whole = light_by_one_rule(begin, end, color_of);
+    const Color halves = light_by_one_rule(begin, middle, color_of) +
+                         std::exp(-first_depth) * light_by_one_rule(middle, end, color_of);
+    if (halvings == 0 || (whole - halves).abs().maxCoeff() <= tolerance) return halves;
+    return light(begin, middle, tolerance, color_of, halvings - 1) +
+           std::exp(-first_depth) * light(middle, end, tolerance, color_of, halvings - 1);
   }
 };
 
@@ -89,7 +96,7 @@ class Tracer {
     const double stretch = frame().ray_direction(plane).norm();
     switch (scene_.mode) {
       case Mode::full:
-        return full(pieces, stretch);
+        return full(pieces, plane, stretch);
       case Mode::emission:
         return emission(pieces, stretch);
       case Mode::absorption:
@@ -132,16 +139,37 @@ class Tracer {
     }
   }
 
-  [[nodiscard]] Rgba full(const std::vector<MonotonePiece>& pieces, double stretch) const {
+  [[nodiscard]] Rgba full(const std::vector<MonotonePiece>& pieces, const Eigen::Vector2d& plane,
+                          double stretch) const {
+    const bool lit = is_lit_medium(scene_);
     Color color = Color::Zero();
     double depth = 0;
     for (const MonotonePiece& piece : pieces) {
       visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
-        color += std::exp(-depth) * part.light(begin, end);
+        const Color light =
+            lit ? part.light(begin, end, kLitTolerance,
+                             [&](double t, const preint::Medium& medium) {
+                               return lit_color(piece, t, plane, medium.color);
+                             })
+                : part.light(begin, end, kTolerance,
+                             [](double, const preint::Medium& medium) { return medium.color; });
+        color += std::exp(-depth) * light;
         depth += part.depth(begin, end);
       });
     }
     return rgba(color, -std::expm1(-depth));
+  }
+
+  /// At a position of a piece.
+  [[nodiscard]] Color lit_color(const MonotonePiece& piece, double t, const Eigen::Vector2d& plane,
+                                const Color& color) const {
+    const Eigen::Vector3d ray = frame().ray_direction(plane);
+    const Eigen::Vector3d at =
+        voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
+    return shade(scene_.lights, color, scene_.transfer_function.material_at(piece.value(t)),
+                 scene_.grid->origin + scene_.grid->axes * at,
+                 grid_gradient(scene_, scene_.grid->index_at(at)),
+                 -(frame().axes().transpose() * ray).normalized());
   }
 
   [[nodiscard]] Rgba emission(const std::vector<MonotonePiece>& pieces, double stretch) const {
@@ -181,8 +209,6 @@ class Tracer {
 
   [[nodiscard]] Rgba iso(const std::vector<MonotonePiece>& pieces,
                          const Eigen::Vector2d& plane) const {
-    const Eigen::Vector3d ray = frame().ray_direction(plane);
-    const Eigen::Vector3d to_viewer = -(frame().axes().transpose() * ray).normalized();
     Color color = Color::Zero();
     double transmittance = 1;
     // Pieces follow each other: each goes on from the value at which the last one ended, so that
@@ -194,12 +220,7 @@ class Tracer {
         const preint::Isosurface& surface = scene_.isosurfaces[i];
         Color lit = surface.color;
         if (scene_.shading != Shading::none) {
-          const double t = piece.position(surface.value);
-          const Eigen::Vector3d at =
-              voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
-          lit = shade(scene_.lights, lit, scene_.transfer_function.material_at(surface.value),
-                      scene_.grid->origin + scene_.grid->axes * at,
-                      grid_gradient(scene_, scene_.grid->index_at(at)), to_viewer);
+          lit = lit_color(piece, piece.position(surface.value), plane, lit);
         }
         color += transmittance * surface.opacity * lit;
         transmittance *= 1 - surface.opacity;
@@ -221,12 +242,38 @@ class Tracer {
 
 }  // namespace
 
+namespace {
+
+/// The mean over the places one point up and down the axes other than `axis`, weights (1, 2, 1) / 4
+/// along each.
+double smoothed_value(const Scene& scene, const Eigen::Vector3d& index, Eigen::Index axis) {
+  const mesh::RectilinearGrid& grid = *scene.grid;
+  double sum = 0;
+  for (const int i : {-1, 0, 1}) {
+    for (const int j : {-1, 0, 1}) {
+      Eigen::Vector3d at = index;
+      for (const auto& [other, step] : {std::pair((axis + 1) % 3, i), {(axis + 2) % 3, j}}) {
+        const auto last = static_cast<double>(grid.size(static_cast<std::size_t>(other)) - 1);
+        at[other] = std::clamp(at[other] + step, 0.0, last);
+      }
+      sum += (2 - std::abs(i)) * (2 - std::abs(j)) * interpolate(grid, scene.field.values, at);
+    }
+  }
+  return sum / 16;
+}
+
+}  // namespace
+
 Eigen::Vector3d grid_gradient(const Scene& scene, const Eigen::Vector3d& index) {
   const mesh::RectilinearGrid& grid = *scene.grid;
   const auto coordinate = [&](std::size_t axis, double at) {
     const std::vector<double>& row = grid.coordinates[axis];
     const std::size_t low = std::min(static_cast<std::size_t>(at), row.size() - 2);
     return row[low] + (at - static_cast<double>(low)) * (row[low + 1] - row[low]);
+  };
+  const auto value = [&](const Eigen::Vector3d& at, Eigen::Index axis) {
+    return scene.gradient == GradientOf::sobel ? smoothed_value(scene, at, axis)
+                                               : interpolate(grid, scene.field.values, at);
   };
   Eigen::Vector3d slope;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -235,9 +282,8 @@ Eigen::Vector3d grid_gradient(const Scene& scene, const Eigen::Vector3d& index) 
     Eigen::Vector3d down = index;
     up[axis] = std::min(index[axis] + 1, static_cast<double>(grid.size(k) - 1));
     down[axis] = std::max(index[axis] - 1, 0.0);
-    slope[axis] =
-        (interpolate(grid, scene.field.values, up) - interpolate(grid, scene.field.values, down)) /
-        (coordinate(k, up[axis]) - coordinate(k, down[axis]));
+    slope[axis] = (value(up, axis) - value(down, axis)) /
+                  (coordinate(k, up[axis]) - coordinate(k, down[axis]));
   }
   return grid.axes.inverse().transpose() * slope;
 }

@@ -39,6 +39,16 @@ Ray ray_of(vec2 position) {
   return ray;
 }
 
+// In the camera's axes, from its axis at the depth of the focus: the coordinates of lights.
+vec3 camera_point(vec2 position, float depth) {
+  vec2 plane = (position - picture_middle) * pixel_pitch * vec2(1, -1);
+#ifdef PARALLEL
+  return vec3(plane, depth);
+#else
+  return vec3(plane * (depth + 1 / focus_inverse), depth);
+#endif
+}
+
 // Cuts [near, far] at low <= start + t slope <= high; false where nothing is left. A ray along one of the two
 // faces counts as moved by `drift`.
 bool cut(float start, float slope, float low, float high, float drift, inout float near, inout float far) {

@@ -69,6 +69,26 @@ vec4 texel_at(vec3 index) {
 float value_at(vec3 index) { return texel_at(index).x; }
 
 #ifdef SHADING_SMOOTH
+// The mean over the places one point up and down the axes other than k, weights (1, 2, 1) / 4 along each.
+float smoothed_value(vec3 index, int k) {
+#ifdef SOBEL
+  int a = (k + 1) % 3;
+  int b = (k + 2) % 3;
+  float sum = 0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      vec3 at = index;
+      at[a] = clamp(index[a] + float(i), 0.0, last_point[a]);
+      at[b] = clamp(index[b] + float(j), 0.0, last_point[b]);
+      sum += float((2 - abs(i)) * (2 - abs(j))) * value_at(at);
+    }
+  }
+  return sum / 16;
+#else
+  return value_at(index);
+#endif
+}
+
 // In camera space; its length does not matter. From the values one point up and down along each axis
 // (grid_reference.h, grid_gradient).
 vec3 gradient_at(vec3 index) {
@@ -87,7 +107,7 @@ vec3 gradient_at(vec3 index) {
 #else
     float apart = (up[k] - down[k]) / last_point[k];
 #endif
-    slope[k] = (value_at(up) - value_at(down)) / apart;
+    slope[k] = (smoothed_value(up, k) - smoothed_value(down, k)) / apart;
   }
   return vec3(dot(slope, grid_right), dot(slope, grid_up), dot(slope, grid_away));
 }

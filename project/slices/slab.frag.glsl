@@ -23,6 +23,11 @@ flat in vec3 block_high;
 #ifdef TABLE_2D
 #include "slab_table.glsl"
 #endif
+#ifdef SHADING_SMOOTH
+#include "shade.glsl"
+
+uniform vec4 material;  // of the medium
+#endif
 #ifdef MODE_ISO
 #include "slab_surfaces.glsl"
 #endif
@@ -72,7 +77,10 @@ void main() {
 #elif defined(MODE_MIP_FIELD)
   result = max(front, back);
 #elif defined(MODE_ISO)
-  if (!surfaces_met(front, back, enter, leave, ray.to_viewer, result)) discard;
+  if (!surfaces_met(front, back, enter, leave, camera_point(position, near), camera_point(position, far),
+                    ray.to_viewer, result)) {
+    discard;
+  }
 #elif defined(MODE_EMISSION)
   result = vec4(emission(front, back, size), 0);
 #elif defined(MODE_ABSORPTION)
@@ -81,6 +89,12 @@ void main() {
   result = vec4(largest_color(front, back), 1);
 #else
   result = light_of(front, back, size);
+#ifdef SHADING_SMOOTH
+  // One normal a slab: that in its middle.
+  result.rgb = shade(result.rgb, result.a, Material(material.x, material.y, material.z, material.w),
+                     gradient_at(index_at(ray.start + middle * ray.slope)), camera_point(position, middle),
+                     ray.to_viewer);
+#endif
 #endif
 #endif
 }

@@ -81,6 +81,7 @@ SliceProjector::SliceProjector(const gl::Context& context, const Scene& scene, c
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       normalization_(scene),
       ranges_(*scene.grid, scene.field.values),
+      lights_(context, scene),
       counter_(context) {
   const base::Stopwatch clock;
   if (plan.slices.classify != Classify::pre && gl::reads_medium(scene, plan)) {
@@ -161,7 +162,11 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   if (medium_) names.emplace_back("NEEDS_MEDIUM");
   if (gl::has_scalar_target(scene_)) names.emplace_back("SCALAR_TARGET");
   if (points_) names.emplace_back("UNEVEN");
-  if (scene_.shading == Shading::smooth) names.emplace_back("SHADING_SMOOTH");
+  if (scene_.shading != Shading::none) {
+    names.emplace_back("SHADING_SMOOTH");
+    if (scene_.gradient == GradientOf::sobel) names.emplace_back("SOBEL");
+    if (scene_.lights) names.emplace_back("LIGHTS");
+  }
   if (!scene_.clip.empty()) names.push_back("CLIP_PLANES " + std::to_string(scene_.clip.size()));
   std::string purpose;
   for (const std::string& name : names) purpose += name + ' ';
@@ -177,6 +182,9 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   program.set("surfaces", gl::Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
   program.set("grid_points", kPointsUnit);
+  lights_.set_uniforms(program);
+  // Of a medium there is one (plan_light).
+  program.set("material", gl::material_texel(scene_, scene_.transfer_function.points()[0].value));
   const Eigen::Vector3i last = whole_grid(*scene_.grid).high;
   program.set("last_point", Eigen::Vector3f(last.cast<float>()));
   return program;
@@ -210,9 +218,8 @@ std::vector<Brick> SliceProjector::bricks(const GridView& view,
                                ? plan_.slices.brick_bytes / bytes_per_point(plan_.slices)
                                : std::numeric_limits<std::size_t>::max();
   // The gradient of a surface is that between the points beside it.
-  const Eigen::Vector3i border =
-      reach.value_or(Eigen::Vector3i::Zero()) +
-      Eigen::Vector3i::Constant(scene_.shading == Shading::smooth ? 1 : 0);
+  const Eigen::Vector3i border = reach.value_or(Eigen::Vector3i::Zero()) +
+                                 Eigen::Vector3i::Constant(scene_.shading != Shading::none ? 1 : 0);
   std::vector<Brick> result = make_bricks(*scene_.grid, border, most, context_.limits().table_3d);
   order_bricks(result, *scene_.grid, view);
   return result;
@@ -287,6 +294,7 @@ Image SliceProjector::draw(const Frame& frame, Stats& stats) {
     const std::vector<Slab> slabs =
         make_slabs(view, *scene_.grid, plan_.slices.stack, plan_.slices.distance > 0 ? length : 0);
     make_table(length, stats);
+    lights_.place(frame, uniforms, normalization_.radius);
     if (medium_) medium_->bind();
     if (surfaces_) surfaces_->bind(gl::Units::kSurfaces);
     if (points_) points_->bind(kPointsUnit);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "project/camera.h"
+#include "project/gl/light_texels.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/program.h"
 #include "project/gl/view_uniforms.h"
@@ -69,6 +70,7 @@ class SliceProjector {
   int largest_tile_;
   gl::Normalization normalization_;
   BlockRanges ranges_;
+  gl::LightTexels lights_;
   gl::FragmentCounter counter_;
   std::map<std::string, gl::Program> programs_;  // by the purpose that they were made for
   std::map<int, GridTexture> textures_;          // by the axis of the layers; -1: 3D

@@ -121,6 +121,45 @@ TEST(Lighting, IsosurfacesUnderAnyLights) {
   }
 }
 
+// OpenGL lights each segment once, as the cpu projector does with `single`.
+TEST(Lighting, MediaLitOnceASegmentAreTheSameOnOpenGl) {
+  const mesh::TetMesh mesh = round_cube(5);
+  const preint::Material shiny{0.1, 0.5, 0.4, 30};
+  for (const Camera& camera : cameras(mesh)) {
+    Scene scene = tests::make_scene(mesh, Mode::full,
+                                    TransferFunction({{0.0, Color(0.9, 0.2, 0), 0, shiny},
+                                                      {1.5, Color(0.1, 0.9, 0.3), 2, shiny},
+                                                      {3, Color(0.2, 0.1, 0.9), 0.5, shiny}}),
+                                    kSize);
+    scene.camera = camera;
+    scene.shading = Shading::single;
+    for (const GradientOf gradient : {GradientOf::vertex, GradientOf::cell}) {
+      scene.gradient = gradient;
+      for (const bool headlight : {true, false}) {
+        scene.lights.reset();
+        if (!headlight) {
+          scene.lights = far_lights();
+          scene.lights->lights.emplace_back(PointLight{{0.2, 0.3, 0.6}, Color(0.8, 0.2, 0.2)});
+        }
+        const Image expected = draw(scene, Projector::cpu);
+        EXPECT_LE(compare(draw(scene, Projector::gl), expected).max, 1e-4)
+            << headlight << int(gradient);
+        Request lists;
+        lists.projector = Projector::gl;
+        lists.sort = SortMethod::fragments;
+        Stats stats;
+        EXPECT_LE(compare(render(scene, plan(scene, lists), stats), expected).max, 1e-4);
+        // The twelve vertices have one gradient a cell, and show no cell around the eye.
+        const bool inside = mesh::bounds(mesh).contains(camera.eye);
+        if (gradient == GradientOf::vertex || inside) continue;
+        lists.sort.reset();
+        lists.gl.layout = Layout::faces12;
+        EXPECT_LE(compare(render(scene, plan(scene, lists), stats), expected).max, 1e-3);
+      }
+    }
+  }
+}
+
 // One normal, light from far away, parallel rays: the light is the same along every ray, and every
 // way to light is exact.
 TEST(Lighting, AllWaysAgreeOnAConstantNormal) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "project/reference/grid_reference.h"
 #include "project/slices/slices_projector.h"
 #include "tests/support/chord.h"
 #include "tests/support/grids.h"
@@ -173,6 +174,91 @@ TEST(Slices, IsosurfacesAreThoseOfTheReference) {
   }
 }
 
+Lights colored_lights() {
+  Lights lights;
+  lights.ambient = {0.6, 0.8, 1};
+  lights.lights.emplace_back(DirectionalLight{{-1, -0.5, -0.4}, {0.9, 0.8, 0.7}});
+  lights.lights.emplace_back(PointLight{{0.2, 0.3, 0.6}, {0.8, 0.2, 0.2}});
+  return lights;
+}
+
+// One normal a slab: of the first order where normals turn, and better where slabs are short.
+TEST(Slices, LitMediaComeNearToLightAtEveryPoint) {
+  for (const bool even : {true, false}) {
+    const mesh::TetMesh mesh = grid_mesh(bent, even);
+    for (const GradientOf gradient : {GradientOf::central, GradientOf::sobel}) {
+      for (const bool headlight : {true, false}) {
+        Scene scene = grid_scene(mesh, Mode::full, smooth_medium());
+        scene.shading = Shading::single;
+        scene.gradient = gradient;
+        if (!headlight) scene.lights = colored_lights();
+        const Image reference = expected_grid(scene);
+        Scene unlit = scene;
+        unlit.shading = Shading::none;
+        unlit.lights.reset();
+        EXPECT_GT(difference(expected_grid(unlit), reference).rms, 0.02);
+        for (const Stack stack : {Stack::planes, Stack::shells}) {
+          SlicesRequest request;
+          request.stack = stack;
+          request.slices = 100;
+          const double coarse = difference(draw_slices(scene, request), reference).rms;
+          request.slices = 400;
+          const double fine = difference(draw_slices(scene, request), reference).rms;
+          EXPECT_LT(fine, 5e-4) << to_string(stack) << even << headlight;
+          EXPECT_LT(fine, coarse / 3) << to_string(stack) << even << headlight;
+        }
+      }
+    }
+  }
+}
+
+TEST(Slices, SurfacesHaveLightsAndMaterials) {
+  const mesh::TetMesh mesh = grid_mesh(bent);
+  const preint::Material dull{0.2, 0.8, 0, 8};
+  const preint::Material shiny{0.1, 0.5, 0.4, 30};
+  Scene scene = grid_scene(
+      mesh, Mode::iso,
+      preint::TransferFunction({{-2, {1, 0, 0}, 1, dull}, {2, {0, 1, 0}, 1, shiny}}), 48);
+  scene.isosurfaces = {{-0.31, {1, 0, 0}, 0.5}, {0.47, {0, 1, 0}, 0.7}};
+  scene.shading = Shading::smooth;
+  scene.lights = colored_lights();
+  for (const GradientOf gradient : {GradientOf::central, GradientOf::sobel}) {
+    scene.gradient = gradient;
+    SlicesRequest request;
+    request.slices = 400;
+    const Error error = difference(draw_slices(scene, request), expected_grid(scene));
+    EXPECT_LT(error.rms, 2e-3);
+  }
+}
+
+// Of a linear field every difference is the same.
+TEST(Slices, SobelSmoothsAndDoesNotBend) {
+  const mesh::TetMesh linear = grid_mesh(
+      [](const Eigen::Vector3d& p) { return 0.3 * p.x() - 0.2 * p.y() + 0.5 * p.z(); }, false);
+  Scene scene = grid_scene(linear, Mode::full, smooth_medium());
+  for (const GradientOf gradient : {GradientOf::central, GradientOf::sobel}) {
+    scene.gradient = gradient;
+    const Eigen::Vector3d at = grid_gradient(scene, {2.3, 1.7, 4.1});
+    EXPECT_LT((at - Eigen::Vector3d(0.3, -0.2, 0.5)).norm(), 1e-12);
+  }
+  // Of a single peak: central differences see it at the point beside, Sobel's weights half of it
+  // from a point beside that.
+  mesh::TetMesh peak = grid_mesh([](const auto&) { return 0.0; });
+  const auto point = [](std::size_t i, std::size_t j, std::size_t k) {
+    return (k * 6 + j) * 8 + i;
+  };
+  peak.fields[0].values[point(3, 2, 5)] = 1;
+  Scene peaked = grid_scene(peak, Mode::full, smooth_medium());
+  const double step = 2.0 / 7;
+  peaked.gradient = GradientOf::central;
+  EXPECT_NEAR(grid_gradient(peaked, {2, 2, 5}).x(), 1 / (2 * step), 1e-12);
+  EXPECT_NEAR(grid_gradient(peaked, {2, 3, 5}).x(), 0, 1e-12);
+  peaked.gradient = GradientOf::sobel;
+  EXPECT_NEAR(grid_gradient(peaked, {2, 2, 5}).x(), 0.25 / (2 * step), 1e-12);
+  EXPECT_NEAR(grid_gradient(peaked, {2, 3, 5}).x(), 0.125 / (2 * step), 1e-12);
+  EXPECT_NEAR(grid_gradient(peaked, {2, 3, 6}).x(), 0.0625 / (2 * step), 1e-12);
+}
+
 // kappa = s: the optical depth is off by no more than half a step of the texels times the ray.
 TEST(Slices, TexelsRoundValuesToTheirBits) {
   const mesh::TetMesh mesh =
@@ -337,6 +423,17 @@ TEST(Slices, PlanRefusesWhatSlicesLack) {
   request.integrator = Integrator::table2d;
   refused(scene, request);
   request.integrator.reset();
+  scene.mode = Mode::full;
+  scene.shading = Shading::smooth;
+  refused(scene, slices);  // lit once a slab
+  scene.shading = Shading::single;
+  EXPECT_TRUE(plan(scene, slices).gradients);
+  request = slices;
+  request.slices.classify = Classify::pre;
+  refused(scene, request);
+  scene.shading = Shading::none;
+  scene.mode = Mode::mip;
+  request = slices;
   scene.depth_cue = DepthCue{1, 2};
   refused(scene, request);
   scene.depth_cue.reset();
@@ -346,10 +443,16 @@ TEST(Slices, PlanRefusesWhatSlicesLack) {
   scene.isosurfaces = {{0.4, {1, 1, 1}, 1}};
   scene.shading = Shading::smooth;
   EXPECT_NO_THROW(static_cast<void>(plan(scene, slices)));
+  preint::ControlPoint dull;
   preint::ControlPoint shiny;
+  shiny.value = 1;
   shiny.material.shininess = 5;
-  scene.transfer_function = preint::TransferFunction({shiny});
+  scene.transfer_function = preint::TransferFunction({dull, shiny});
+  EXPECT_NO_THROW(static_cast<void>(plan(scene, slices))) << "surfaces have one each";
+  scene.mode = Mode::full;
+  scene.shading = Shading::single;
   refused(scene, slices);
+  scene.shading = Shading::none;
   scene.grid.reset();
   refused(scene, slices);
   request = {};
