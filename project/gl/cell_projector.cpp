@@ -267,8 +267,8 @@ Image CellProjector::draw_rays(const Frame& frame, const ViewUniforms& view, Ray
   const Target target(context_, target_texel(scene_, plan_.gl.target),
                       draws_opaque_surfaces(scene_), width, height);
   bind();
-  place_lights(frame, view);
-  if (lights_) stats.add(Effect::lights, lights_->bytes());
+  lights_.place(frame, view, normalization_.radius);
+  if (scene_.lights) stats.add(Effect::lights, lights_.bytes());
   if (by_fragments_ && !(lists_ && lists_->hold(width, height))) {
     lists_.emplace(context_, width, height, most_fragments_);
     stats.add(Effect::order, lists_->bytes());
