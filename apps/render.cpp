@@ -295,6 +295,9 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
                   "(full) | psi "
                   "(full) | linear (the ends of a segment only)")
       ->capture_default_str();
+  app->add_option("--light-map", a.light_map,
+                  "N: --lights looked up in cube maps of N x N texels instead of summed, for "
+                  "--projector gl and slices");
   app->add_option("--table", a.table, "N[xM], values and lengths of the table");
   app->add_option("--layout", a.layout,
                   "auto | indexed | strip | faces12 | faces12-short (Weiler's 12 vertices a cell, "

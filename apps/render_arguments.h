@@ -55,6 +55,7 @@ struct RenderArguments : CameraArguments {
   std::string shading;
   std::string gradient;
   std::string lights;
+  std::string light_map;
   std::string modulate;
   std::string background;
   std::string stats;

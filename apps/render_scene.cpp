@@ -367,6 +367,9 @@ project::Request make_request(const RenderArguments& arguments) {
                                               {"reference", Projector::reference},
                                               {"slices", Projector::slices},
                                               {"grid-reference", Projector::grid_reference}});
+  if (!arguments.light_map.empty()) {
+    request.light_map = parse_count(arguments.light_map, "--light-map", 1);
+  }
   request.context = parse_choice<std::optional<ContextKind>>(
       arguments.context, "--context",
       {{"auto", std::nullopt}, {"osmesa", ContextKind::osmesa}, {"egl", ContextKind::egl}});

@@ -236,7 +236,7 @@ bool needs_gl(const Scene& scene, const Request& request) {
                            (request.sort == SortMethod::none && blends && !is_commutative(scene));
   const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
   return request.context.has_value() || is_any_set(request.gl) || sorts_cells || approximates ||
-         request.table_n != 0 || scene.depth_cue.has_value();
+         request.table_n != 0 || request.light_map != 0 || scene.depth_cue.has_value();
 }
 
 void check_depth_cue(const Scene& scene, Plan& plan) {
@@ -347,7 +347,7 @@ Plan plan(const Scene& scene, const Request& request) {
   }
   plan_order(scene, request, plan);
   plan_integrator(scene, request, plan);
-  plan_light(scene, plan);
+  plan_light(scene, request.light_map, plan);
   return plan;
 }
 

@@ -37,6 +37,7 @@ struct Request {
   std::optional<double> opaque_at;  ///< in (0, 1]; mode full of the cpu projector
   int table_n = 0;                  ///< scalar resolution of the table, 0: chosen
   int table_m = 0;                  ///< length resolution of the 3D table, 0: chosen
+  int light_map = 0;                ///< texels each way of cube maps of the lights, 0: none
   GlRequest gl;                     ///< for the gl projector only
   SlicesRequest slices;             ///< for the slices projector only
 };
@@ -56,6 +57,7 @@ struct Plan {
   SlicesPlan slices;                 ///< for the slices projector only
   double opaque_at = 1;              ///< opacity at which a ray ends (cpu)
   bool gradients = false;            ///< of the field are computed, to light it
+  int light_map = 0;                 ///< texels each way of cube maps of the lights; 0: none
   std::vector<std::string> reasons;  ///< one line per decision, for people
 };
 

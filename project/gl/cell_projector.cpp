@@ -64,7 +64,7 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       normalization_(scene),
       drawn_(shown_cells(scene, normalization_.values)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
-      lights_(context, scene),
+      lights_(context, scene, plan),
       counter_(context) {
   const LayoutBytes bytes = cells_->bytes();
   stats.add(Effect::cells, bytes.cells);

@@ -7,14 +7,16 @@
 #include "project/gl/program.h"
 #include "project/gl/view_uniforms.h"
 #include "project/light/light_sources.h"
+#include "project/plan.h"
 
 namespace tetraglass::project::gl {
 
-/// The lights of a scene on the context, as shade.glsl sums them up; nothing for a headlight.
+/// The lights of a scene on the context, as shade.glsl sums them up or looks them up in cube maps;
+/// nothing for a headlight.
 class LightTexels {
  public:
   /// Throws UnavailableError where they do not fit.
-  LightTexels(const Context& context, const Scene& scene);
+  LightTexels(const Context& context, const Scene& scene, const Plan& plan);
 
   /// Those of the uniforms that do not depend on the view.
   void set_uniforms(const Program& program) const;
@@ -23,12 +25,15 @@ class LightTexels {
   void place(const Frame& frame, const ViewUniforms& view, double radius);
 
   /// 0 for a headlight.
-  [[nodiscard]] std::size_t bytes() const { return texels_ ? texels_->bytes() : 0; }
+  [[nodiscard]] std::size_t bytes() const { return map_bytes_ + (texels_ ? texels_->bytes() : 0); }
 
  private:
   Eigen::Vector3f ambient_ = Eigen::Vector3f::Ones();
   std::vector<LightSource> sources_;
-  std::optional<TextureBuffer> texels_;
+  std::optional<TextureBuffer> texels_;  // no maps
+  std::optional<CubeMap> diffuse_;
+  std::optional<CubeMap> specular_;
+  std::size_t map_bytes_ = 0;
 };
 
 }  // namespace tetraglass::project::gl

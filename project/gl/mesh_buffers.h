@@ -44,6 +44,8 @@ struct Units {
   static constexpr int kMinima = 9;
   static constexpr int kLights = 10;
   static constexpr int kRayEnds = 11;
+  static constexpr int kDiffuseMap = 12;
+  static constexpr int kSpecularMap = 13;
 };
 
 }  // namespace tetraglass::project::gl

@@ -173,6 +173,28 @@ void Table::bind(int unit) const {
   texture_.context().gl().BindTextureUnit(static_cast<GLuint>(unit), texture_.get());
 }
 
+CubeMap::CubeMap(const Context& context, int size, std::span<const float> rgba)
+    : texture_(make_texture(context, GL_TEXTURE_CUBE_MAP)) {
+  if (size > context.limits().table_2d) {
+    throw base::UnavailableError(
+        fmt::format("a cube map of {} texels each way is larger than this OpenGL can hold ({})",
+                    size, context.limits().table_2d));
+  }
+  const Functions& gl = context.gl();
+  const GLuint name = texture_.get();
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.TextureStorage2D(name, 1, GL_RGBA32F, size, size);
+  gl.TextureSubImage3D(name, 0, 0, 0, 0, size, size, 6, GL_RGBA, GL_FLOAT, rgba.data());
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  context.check("handing a cube map to the shaders");
+}
+
+void CubeMap::bind(int unit) const {
+  texture_.context().gl().BindTextureUnit(static_cast<GLuint>(unit), texture_.get());
+}
+
 Target::Target(const Context& context, Texel color, bool depth, int width, int height)
     : texel_(color),
       color_texture_(make_image(context, format_of(color), width, height)),

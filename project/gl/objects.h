@@ -117,6 +117,19 @@ class Table {
   Name texture_;
 };
 
+/// Samples by direction, between which the shaders interpolate; across the edges of the cube, too.
+class CubeMap {
+ public:
+  /// `rgba`: six faces of `size` x `size` texels of four floats, in the order of OpenGL. Throws
+  /// UnavailableError where it is larger than the context can hold.
+  CubeMap(const Context& context, int size, std::span<const float> rgba);
+
+  void bind(int unit) const;
+
+ private:
+  Name texture_;
+};
+
 /// What the frame is drawn into: a color texture and, if asked for, 32 bits of float depth.
 class Target {
  public:

@@ -8,7 +8,13 @@ struct Material {
   float shininess;
 };
 
-#ifdef LIGHTS
+#if defined(LIGHT_MAPS)
+// Light by the normal and by the reflected viewer (project/light/light_maps.h), in the mesh's axes.
+uniform samplerCube diffuse_map;
+uniform samplerCube specular_map;
+uniform dmat3 axes;  // mesh to camera
+uniform vec3 ambient_light;
+#elif defined(LIGHTS)
 // Of each light (place, 1), or (unit vector towards it, 0) where it is far away; then its color. In the
 // camera's axes, in units of half the mesh's diagonal, from the camera's axis at the depth of the focus.
 uniform samplerBuffer lights;
@@ -41,6 +47,11 @@ vec3 shade(vec3 color, float opacity, Material material, vec3 gradient, vec3 at,
     normal = -normal;
     facing = -facing;
   }
+#ifdef LIGHT_MAPS
+  vec3 reflected = 2 * facing * normal - to_viewer;
+  vec3 diffuse = textureLod(diffuse_map, normal * mat3(axes), 0.0).rgb;
+  vec3 specular = textureLod(specular_map, reflected * mat3(axes), 0.0).rgb;
+#else
   vec3 diffuse = vec3(0);
   vec3 specular = vec3(0);
   for (int i = 0; i < light_count; ++i) {
@@ -56,6 +67,7 @@ vec3 shade(vec3 color, float opacity, Material material, vec3 gradient, vec3 at,
     float reflected = 2 * cosine * facing - dot(to_light, to_viewer);
     specular += power(min(reflected, 1.0), material.shininess) * light;
   }
+#endif
   vec3 ambient = material.ambient * ambient_light;
 #else
   facing = abs(facing);

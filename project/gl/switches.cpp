@@ -69,6 +69,7 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
   if (scene.shading != Shading::none && scene.field.location == mesh::Location::point) {
     names.emplace_back(has_cell_normals(scene) ? "SHADING_FLAT" : "SHADING_SMOOTH");
     if (scene.lights) names.emplace_back("LIGHTS");
+    if (plan.light_map > 0) names.emplace_back("LIGHT_MAPS");
   }
   return names;
 }

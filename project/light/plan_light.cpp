@@ -1,11 +1,14 @@
 #include "project/light/plan_light.h"
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "project/light/light_maps.h"
 
 namespace tetraglass::project {
 namespace {
@@ -76,6 +79,29 @@ void check_medium_of_gl(const Scene& scene, const Plan& plan) {
   }
 }
 
+void check_light_map(const Scene& scene, int size, const Plan& plan) {
+  if (plan.projector != Projector::gl && plan.projector != Projector::slices) {
+    throw base::UsageError("--light-map is for --projector gl and slices; " +
+                           to_string(plan.projector) + " sums the lights");
+  }
+  if (!scene.lights || scene.shading == Shading::none) {
+    throw base::UsageError("--light-map holds the light of --lights: give some");
+  }
+  if (size < 2 || size > kLargestLightMap) {
+    throw base::UsageError(
+        fmt::format("--light-map needs from 2 to {} texels each way", kLargestLightMap));
+  }
+  std::vector<double> shininess;
+  for (const preint::Isosurface& surface : scene.isosurfaces) {
+    shininess.push_back(scene.transfer_function.material_at(surface.value).shininess);
+  }
+  if (std::adjacent_find(shininess.begin(), shininess.end(), std::not_equal_to<>()) !=
+      shininess.end()) {
+    throw base::UsageError(
+        "--light-map holds the highlights of one shininess, and the surfaces have several");
+  }
+}
+
 void check_projector(const Scene& scene, const Plan& plan) {
   if (plan.projector == Projector::cpu || plan.projector == Projector::reference) return;
   if (scene.modulation) {
@@ -89,9 +115,11 @@ void check_projector(const Scene& scene, const Plan& plan) {
 
 }  // namespace
 
-void plan_light(const Scene& scene, Plan& plan) {
+void plan_light(const Scene& scene, int light_map, Plan& plan) {
   check_scene(scene);
   check_projector(scene, plan);
+  if (light_map != 0) check_light_map(scene, light_map, plan);
+  plan.light_map = light_map;
   if (scene.shading != Shading::none && plan.integrator == Integrator::table2d)
     check_materials_of_surfaces(scene);
   plan.gradients = scene.shading != Shading::none;
@@ -106,6 +134,12 @@ void plan_light(const Scene& scene, Plan& plan) {
                                      draws_grid(plan.projector) ? "point of the grid"
                                      : has_cell_normals(scene)  ? "cell"
                                                                 : "vertex"));
+  if (light_map > 0) {
+    plan.reasons.push_back(
+        fmt::format("lights: looked up in cube maps of {0} x {0} texels by the normal and {1} x "
+                    "{1} by the reflected viewer, as seen from the middle of the mesh",
+                    diffuse_size(light_map), light_map));
+  }
 }
 
 }  // namespace tetraglass::project

@@ -81,7 +81,7 @@ SliceProjector::SliceProjector(const gl::Context& context, const Scene& scene, c
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       normalization_(scene),
       ranges_(*scene.grid, scene.field.values),
-      lights_(context, scene),
+      lights_(context, scene, plan),
       counter_(context) {
   const base::Stopwatch clock;
   if (plan.slices.classify != Classify::pre && gl::reads_medium(scene, plan)) {
@@ -166,6 +166,7 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
     names.emplace_back("SHADING_SMOOTH");
     if (scene_.gradient == GradientOf::sobel) names.emplace_back("SOBEL");
     if (scene_.lights) names.emplace_back("LIGHTS");
+    if (plan_.light_map > 0) names.emplace_back("LIGHT_MAPS");
   }
   if (!scene_.clip.empty()) names.push_back("CLIP_PLANES " + std::to_string(scene_.clip.size()));
   std::string purpose;
