@@ -1,5 +1,5 @@
 // Ways to light a medium: how wrong each is, against the reference that lights every point of every
-// ray, and what it costs. Prints Markdown.
+// ray, and what it costs; and cube maps of lights against their sum. Prints Markdown.
 //   lighting_study
 
 #include <algorithm>
@@ -128,6 +128,69 @@ void study(const std::string& name, std::size_t cells) {
   }
 }
 
+/// So many far-away lights, spread evenly over the half of the sphere above the mesh.
+project::Lights spread_lights(int count) {
+  project::Lights lights;
+  for (int i = 0; i < count; ++i) {
+    const double z = (i + 0.5) / count;
+    const double angle = 2.399963 * i;  // the golden one
+    const double r = std::sqrt(1 - z * z);
+    lights.lights.emplace_back(project::DirectionalLight{
+        -Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), z),
+        Color(0.6 + 0.4 * std::cos(angle), 0.8, 0.6 + 0.4 * std::sin(angle)) / std::sqrt(count)});
+  }
+  return lights;
+}
+
+struct Timed {
+  project::Image image;
+  double ms = 0;  ///< the median of some frames after the first
+};
+
+Timed draw_with_map(const project::Scene& scene, int light_map) {
+  project::Request request;
+  request.projector = Projector::gl;
+  request.light_map = light_map;
+  project::Stats stats;
+  project::SceneProjector projector(scene, project::plan(scene, request), stats);
+  Timed drawn;
+  std::vector<double> times;
+  for (int i = 0; i <= kFrames; ++i) {
+    const base::Stopwatch clock;
+    drawn.image = projector.draw(stats);
+    if (i > 0) times.push_back(clock.milliseconds());
+  }
+  std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
+  drawn.ms = times[kFrames / 2];
+  return drawn;
+}
+
+/// Cube maps (meissner2002 section 3) against the sum over the lights.
+void study_maps() {
+  fmt::print(
+      "\n| lights | sum, ms | map of 16, ms | error | map of 64, ms | error | map of 256, ms | "
+      "error "
+      "|\n|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 150000);
+  project::Scene scene = make_scene(mesh);
+  scene.mode = project::Mode::full;
+  scene.shading = Shading::single;
+  scene.width = scene.height = kTimedSize / 2;
+  scene.transfer_function = media(scene, mesh::bounds(mesh).diagonal().norm())[2].tf;
+  for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
+    scene.lights = spread_lights(count);
+    const Timed sum = draw_with_map(scene, 0);
+    fmt::print("| {} | {:.0f} |", count, sum.ms);
+    for (const int size : {16, 64, 256}) {
+      const Timed looked_up = draw_with_map(scene, size);
+      fmt::print(" {:.0f} | {:.1e} |", looked_up.ms,
+                 project::compare(looked_up.image, sum.image).max);
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -136,6 +199,7 @@ int main() {
     fmt::print("|---|---:|---|---|---:|---:|---:|\n");
     study("orbital", 10000);
     study("orbital", 150000);
+    study_maps();
   } catch (const std::exception& error) {
     fmt::print(stderr, "lighting_study: error: {}\n", error.what());
     return EXIT_FAILURE;
