@@ -41,7 +41,7 @@ struct LightMap {
 /// Texels each way of the diffuse map beside a specular one of `size`: light by cosines is smooth
 /// (meissner2002 section 6: 16 beside 64).
 [[nodiscard]] constexpr int diffuse_size(int size) {
-  return size < 64 ? size : size / 4;
+  return size < 16 ? 4 : size / 4;
 }
 
 }  // namespace tetraglass::project
