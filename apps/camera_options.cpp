@@ -74,6 +74,10 @@ void add_camera_options(CLI::App* app, CameraArguments& a) {
       "[X,Y,Z], \"fov\": DEG or \"ortho\": HEIGHT}, or a session of the window");
 }
 
+bool is_framed(const CameraArguments& arguments) {
+  return arguments.eye.empty() && arguments.file.empty();
+}
+
 project::Camera make_camera(const CameraArguments& arguments, const mesh::TetMesh& mesh,
                             double aspect) {
   return make_camera(arguments, mesh.points, mesh::bounds(mesh).center(), aspect);

@@ -36,4 +36,7 @@ void add_camera_options(CLI::App* app, CameraArguments& arguments);
                                           std::span<const Eigen::Vector3d> points,
                                           const Eigen::Vector3d& middle, double aspect);
 
+/// Whether the camera is placed so that all is seen: no eye is given.
+[[nodiscard]] bool is_framed(const CameraArguments& arguments);
+
 }  // namespace tetraglass::apps

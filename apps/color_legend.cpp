@@ -106,7 +106,7 @@ void ColorLegend::draw(const Eigen::AlignedBox2d& place, Ink& ink, project::Imag
   const double body =
       scene_.mode == Mode::iso
           ? std::min(rows * static_cast<double>(scene_.isosurfaces.size()), room - above)
-          : std::min(0.62 * room, room - above);
+          : std::min({0.62 * room, room - above, 420 * scale_});
   const double top = place.min().y() + std::max(0.0, (room - body - above) / 2);
   const double left = place.min().x();
   text_from(left, top + title_height / 2, title_, title_font_, ink);

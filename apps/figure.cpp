@@ -1,7 +1,9 @@
 #include "apps/figure.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -47,11 +49,24 @@ void refuse_impossible(const RenderArguments& arguments, const project::Scene& s
   }
 }
 
+/// Files of other formats may hold surfaces, too, but as the surface of what is drawn.
+void check_surface_name(const std::string& file) {
+  const std::vector<std::string> known = {".stl", ".obj", ".off", ".ply"};
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  if (std::ranges::find(known, extension) != known.end()) return;
+  throw base::ReadError(file, "is no surface for --surface, which reads .stl, .obj, .off and .ply");
+}
+
 }  // namespace
 
 mesh::Box drawn_box(const project::Scene& scene) {
-  if (scene.drawable.cells.empty()) return mesh::bounds(*scene.mesh);
   mesh::Box box;
+  for (const project::OpaqueSurface& surface : scene.opaque.surfaces) {
+    for (const Eigen::Vector3d& point : surface.points) box.extend(point);
+  }
+  if (scene.drawable.cells.empty()) box.extend(mesh::bounds(*scene.mesh));
   for (const std::uint32_t cell : scene.drawable.cells) {
     for (const std::uint32_t vertex : scene.mesh->cells[cell]) {
       box.extend(scene.mesh->points[vertex]);
@@ -65,18 +80,13 @@ void add_opaque_geometry(const RenderArguments& arguments, project::Scene& scene
   if (!figure.surface_color.empty() && figure.surfaces.empty()) {
     throw base::UsageError("--surface-color is that of --surface, which is not given");
   }
-  if (figure.outline) {
-    const double scale = std::min(scene.width / 800.0, scene.height / 600.0);
-    scene.opaque.lines = project::box_outline(drawn_box(scene),
-                                              outline_color(make_background(arguments, scene.mode)),
-                                              1.5 * std::max(0.6, scale));
-  }
   preint::Color color(0.62, 0.6, 0.57);
   if (!figure.surface_color.empty()) {
     color = parse_vector(figure.surface_color, "--surface-color").array();
     if (!(color >= 0).all()) throw base::UsageError("--surface-color needs numbers of at least 0");
   }
   for (const std::string& file : figure.surfaces) {
+    check_surface_name(file);
     std::vector<std::string> notes;
     try {
       mesh::TriangleSurface surface = mesh::collect_triangles(mesh::read_surface(file), notes);
@@ -87,6 +97,12 @@ void add_opaque_geometry(const RenderArguments& arguments, project::Scene& scene
       throw base::InputError(file + ": " + error.what());
     }
     for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", file, note);
+  }
+  if (figure.outline) {
+    const double scale = std::min(scene.width / 800.0, scene.height / 600.0);
+    scene.opaque.lines = project::box_outline(drawn_box(scene),
+                                              outline_color(make_background(arguments, scene.mode)),
+                                              1.5 * std::max(0.6, scale));
   }
 }
 
@@ -101,6 +117,8 @@ Figure::Figure(const RenderArguments& arguments, const project::Scene& scene, in
       scale_(std::min(width / 800.0, height / 600.0)),
       picture_{0, 0, width, height} {
   refuse_impossible(arguments, scene);
+  arguments_.title = printable(arguments_.title);
+  arguments_.legend_title = printable(arguments_.legend_title);
   if (!arguments_.legend_title.empty() && !arguments_.legend) {
     throw base::UsageError("--legend-title is that of --legend, which is not given");
   }
@@ -124,7 +142,7 @@ Figure::Figure(const RenderArguments& arguments, const project::Scene& scene, in
 }
 
 std::string Figure::legend_title() const {
-  return arguments_.legend_title.empty() ? scene_.field.name : arguments_.legend_title;
+  return arguments_.legend_title.empty() ? printable(scene_.field.name) : arguments_.legend_title;
 }
 
 project::Image Figure::around(const project::Image& picture, const project::Camera& camera) const {

@@ -34,7 +34,7 @@ class Figure {
  private:
   [[nodiscard]] std::string legend_title() const;
 
-  const FigureArguments arguments_;
+  FigureArguments arguments_;  // texts as they can be set
   bool logarithmic_;
   const project::Scene& scene_;
   project::Background background_;
@@ -45,7 +45,7 @@ class Figure {
   project::Region picture_;  ///< its place
 };
 
-/// The box of the cells that are drawn.
+/// The box of what is drawn: the cells that can be, and opaque surfaces.
 [[nodiscard]] mesh::Box drawn_box(const project::Scene& scene);
 
 /// Adds the outline and the surfaces that are asked for to the scene's opaque geometry. Throws

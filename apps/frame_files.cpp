@@ -145,9 +145,9 @@ Film::Film(const std::string& file, int width, int height, double frames_per_sec
   }
   process_ = std::make_unique<Process>(file, width, height);
   std::array<int, 2> pipe_ends{};
-  char name[] = "/tmp/tetraglass-XXXXXX";
-  process_->messages = mkstemp(name);
-  if (process_->messages >= 0) unlink(name);
+  std::string name = (std::filesystem::temp_directory_path() / "tetraglass-XXXXXX").string();
+  process_->messages = mkostemp(name.data(), O_CLOEXEC);
+  if (process_->messages >= 0) unlink(name.c_str());
   if (process_->messages < 0 || pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
     throw base::WriteError(file, std::string("ffmpeg cannot be started: ") + std::strerror(errno));
   }

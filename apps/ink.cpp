@@ -1,7 +1,9 @@
 #include "apps/ink.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -90,6 +92,33 @@ class Pen {
 };
 
 }  // namespace
+
+std::string printable(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = byte < 0x80 ? 1 : byte >= 0xf0 ? 4 : byte >= 0xe0 ? 3 : 2;
+    bool good = i + length <= text.size();
+    std::uint32_t code = length == 1 ? byte : byte & (0xffU >> (length + 1));
+    for (std::size_t k = 1; good && k < length; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      good = (next & 0xc0U) == 0x80U;
+      code = code << 6U | (next & 0x3fU);
+    }
+    // Not longer than need be, no surrogates, none beyond the last: as RFC 3629 has it.
+    constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
+    good = good && (byte < 0x80 || (byte >= 0xc2 && byte < 0xf8)) && code >= kLeast[length] &&
+           code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
+    if (!good) {
+      result += '?';
+      ++i;
+      continue;
+    }
+    result += code < 0x20 || code == 0x7f ? " " : text.substr(i, length);
+    i += length;
+  }
+  return result;
+}
 
 Eigen::Vector2d text_size(const std::string& text, const Font& font) {
   check_font();

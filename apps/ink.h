@@ -19,6 +19,10 @@ struct Font {
   bool bold = false;
 };
 
+/// The text with a question mark in the place of each byte that is no UTF-8, and a space in that of
+/// each control character.
+[[nodiscard]] std::string printable(const std::string& text);
+
 /// The width of a line of text and the height of its capitals and figures, in pixels.
 [[nodiscard]] Eigen::Vector2d text_size(const std::string& text, const Font& font);
 

@@ -257,7 +257,7 @@ void frame_scene(const RenderArguments& arguments, const Figure& figure, project
   const Eigen::Vector3d middle = mesh::bounds(*scene.mesh).center();
   const std::vector<Eigen::Vector3d> points = shown_points(arguments, scene);
   scene.camera = make_camera(arguments, points, middle, aspect);
-  if (!arguments.eye.empty() || !arguments.file.empty()) return;
+  if (!is_framed(arguments)) return;
   const int frames = std::max(1, orbit_frames(arguments));
   const Eigen::Vector3d pivot = orbit_pivot(arguments, scene);
   if (frames > 1) {
@@ -284,8 +284,7 @@ int orbit_frames(const RenderArguments& arguments) {
 }
 
 Eigen::Vector3d orbit_pivot(const RenderArguments& arguments, const project::Scene& scene) {
-  const bool given = !arguments.eye.empty() || !arguments.file.empty();
-  return given ? scene.camera.target : drawn_box(scene).center();
+  return is_framed(arguments) ? drawn_box(scene).center() : scene.camera.target;
 }
 
 bool draws_grid(const RenderArguments& arguments) {

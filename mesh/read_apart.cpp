@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "mesh/run_apart.h"
+#include "mesh/time_step.h"
 
 namespace tetraglass::mesh {
 namespace {
@@ -71,6 +72,7 @@ constexpr char kMesh = 'm';
 constexpr char kInputError = 'i';
 constexpr char kReadError = 'r';
 constexpr char kUsageError = 'u';
+constexpr char kNoTimeStep = 't';
 
 }  // namespace
 
@@ -124,6 +126,8 @@ MeshData read_apart(const std::string& file, const std::function<MeshData()>& re
           return kMesh + to_bytes(read());
         } catch (const base::ReadError& error) {
           return kReadError + std::string(error.what());
+        } catch (const NoTimeStepError& error) {
+          return kNoTimeStep + std::to_string(error.steps()) + ' ' + error.what();
         } catch (const base::UsageError& error) {
           return kUsageError + std::string(error.what());
         } catch (const std::bad_alloc&) {
@@ -144,6 +148,11 @@ MeshData read_apart(const std::string& file, const std::function<MeshData()>& re
   const std::string message(rest.starts_with(head) ? rest.substr(head.size()) : rest);
   if (apart.result[0] == kReadError) throw base::ReadError(file, message);
   if (apart.result[0] == kUsageError) throw base::UsageError(message);
+  if (apart.result[0] == kNoTimeStep) {
+    const std::size_t steps_end = rest.find(' ');
+    throw NoTimeStepError(std::string(rest.substr(steps_end + 1)),
+                          std::stoul(std::string(rest.substr(0, steps_end))));
+  }
   throw base::InputError(message);
 }
 

@@ -32,6 +32,8 @@ std::string to_string(Effect effect) {
       return "clipping";
     case Effect::depth_cue:
       return "depth cue";
+    case Effect::opaque:
+      return "opaque geometry";
     case Effect::samples:
       return "samples";
   }

@@ -21,13 +21,15 @@ enum class Effect {
   modulation,   ///< of the opacity by the gradient
   clipping,     ///< by planes
   depth_cue,    ///< surfaces fade with their distance
+  opaque,       ///< lines and surfaces among the volume
   samples       ///< several rays a pixel
 };
 
 inline constexpr std::array kEffects = {
-    Effect::cells,     Effect::segments,   Effect::medium,   Effect::table,     Effect::attenuation,
-    Effect::order,     Effect::blending,   Effect::rays,     Effect::gradients, Effect::lights,
-    Effect::materials, Effect::modulation, Effect::clipping, Effect::depth_cue, Effect::samples};
+    Effect::cells,       Effect::segments,  Effect::medium,    Effect::table,
+    Effect::attenuation, Effect::order,     Effect::blending,  Effect::rays,
+    Effect::gradients,   Effect::lights,    Effect::materials, Effect::modulation,
+    Effect::clipping,    Effect::depth_cue, Effect::opaque,    Effect::samples};
 
 [[nodiscard]] std::string to_string(Effect effect);
 

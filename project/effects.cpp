@@ -294,6 +294,12 @@ EffectPlan modulation(const Census& census) {
   return yes(Effect::modulation, "opacity by the gradient of each cell", 4 * census.cells());
 }
 
+EffectPlan opaque(const Scene& scene) {
+  if (scene.opaque.empty()) return no(Effect::opaque, "nothing among the volume");
+  return yes(Effect::opaque, fmt::format("{} lines and {} surfaces, where rays end",
+                                         scene.opaque.lines.size(), scene.opaque.surfaces.size()));
+}
+
 EffectPlan samples(const Census& census) {
   const Scene& scene = census.scene();
   if (scene.samples == 1) return no(Effect::samples, "one ray a pixel");
@@ -326,7 +332,8 @@ std::vector<EffectPlan> planned_effects(const Scene& scene, const Plan& plan, in
   return {
       cells(census),    segments(census),   medium(census), table(census),     attenuation(census),
       order(census),    blending(census),   rays(census),   gradients(census), lights(scene),
-      materials(scene), modulation(census), clipping,       depth_cue,         samples(census)};
+      materials(scene), modulation(census), clipping,       depth_cue,         opaque(scene),
+      samples(census)};
 }
 
 std::string effects_table(const std::vector<EffectPlan>& effects, const Stats* stats) {

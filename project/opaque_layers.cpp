@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "project/light/phong.h"
 
 namespace tetraglass::project {
@@ -135,19 +136,40 @@ class LineRaster {
 /// Finds the nearest triangle of each pixel.
 class TriangleRaster {
  public:
-  TriangleRaster(const Frame& frame, const std::optional<Lights>& lights)
-      : frame_(frame), lights_(lights), nearest_(pixels(), {kInfinity, {}, 1}) {}
-
-  void draw(const OpaqueSurface& surface) {
-    std::vector<Eigen::Vector3d> seen;
-    seen.reserve(surface.points.size());
-    for (const Eigen::Vector3d& p : surface.points) seen.push_back(frame_.to_camera(p));
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) draw(surface, t, seen);
+  TriangleRaster(const Frame& frame, std::span<const OpaqueSurface> surfaces)
+      : frame_(frame), surfaces_(surfaces), nearest_(pixels()) {
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+      std::vector<Eigen::Vector3d> seen;
+      seen.reserve(surfaces[s].points.size());
+      for (const Eigen::Vector3d& p : surfaces[s].points) seen.push_back(frame.to_camera(p));
+      for (std::uint32_t t = 0; t < surfaces[s].triangles.size(); ++t) draw(s, t, seen);
+    }
   }
 
-  [[nodiscard]] const std::vector<OpaqueFragment>& nearest() const { return nearest_; }
+  /// What is seen, lit.
+  void add_fragments(const std::optional<Lights>& lights,
+                     std::vector<PlacedFragment>& fragments) const {
+    const std::size_t before = fragments.size();
+    for (std::size_t pixel = 0; pixel < nearest_.size(); ++pixel) {
+      const double depth = nearest_[pixel].depth;
+      if (depth < kInfinity) fragments.push_back({pixel, 0, {depth, {}, 1}});
+    }
+    constexpr std::size_t kGrain = 1024;  // some 200 us of work
+    const std::size_t count = fragments.size() - before;
+    base::parallel_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = before + begin; i < before + end; ++i) {
+        fragments[i].fragment.color = floats(lit(lights, fragments[i].pixel));
+      }
+    });
+  }
 
  private:
+  struct Seen {
+    double depth = kInfinity;
+    std::uint32_t surface = 0;
+    std::uint32_t triangle = 0;
+  };
+
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(frame_.width()) * static_cast<std::size_t>(frame_.height());
   }
@@ -180,19 +202,26 @@ class TriangleRaster {
     return box.intersection(picture);
   }
 
-  void draw(const OpaqueSurface& surface, std::size_t t, const std::vector<Eigen::Vector3d>& seen) {
-    const std::array<std::uint32_t, 3>& v = surface.triangles[t];
-    const std::array<Eigen::Vector3d, 3> p = {seen[v[0]], seen[v[1]], seen[v[2]]};
-    if (!frame_.parallel() && p[0].z() <= 0 && p[1].z() <= 0 && p[2].z() <= 0) return;
-    const Eigen::AlignedBox2d box = bounds(p);
-    if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) return;
-    Eigen::Matrix3d edges;  // row i: of the side across from corner i
+  /// Row i: of the side across from corner i.
+  [[nodiscard]] Eigen::Matrix3d edges_of(const std::array<std::uint32_t, 3>& v,
+                                         const std::array<Eigen::Vector3d, 3>& p) const {
+    Eigen::Matrix3d edges;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
       edges.row(static_cast<Eigen::Index>(i)) =
           edge(v[j], projective(p[j]), v[k], projective(p[k])).transpose();
     }
+    return edges;
+  }
+
+  void draw(std::uint32_t s, std::uint32_t t, const std::vector<Eigen::Vector3d>& seen) {
+    const std::array<std::uint32_t, 3>& v = surfaces_[s].triangles[t];
+    const std::array<Eigen::Vector3d, 3> p = {seen[v[0]], seen[v[1]], seen[v[2]]};
+    if (!frame_.parallel() && p[0].z() <= 0 && p[1].z() <= 0 && p[2].z() <= 0) return;
+    const Eigen::AlignedBox2d box = bounds(p);
+    if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) return;
+    const Eigen::Matrix3d edges = edges_of(v, p);
     for (int y = static_cast<int>(std::ceil(box.min().y())); y <= box.max().y(); ++y) {
       for (int x = static_cast<int>(std::ceil(box.min().x())); x <= box.max().x(); ++x) {
         const Eigen::Vector2d plane = frame_.image_plane(x, y);
@@ -203,46 +232,55 @@ class TriangleRaster {
         const Eigen::Vector3d weights = sides / sum;
         const double depth = weights[0] * p[0].z() + weights[1] * p[1].z() + weights[2] * p[2].z();
         if (!frame_.parallel() && !(depth > 0)) continue;
-        OpaqueFragment& nearest =
+        Seen& nearest =
             nearest_[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width()) +
                      static_cast<std::size_t>(x)];
-        if (!(depth < nearest.depth)) continue;
-        nearest.depth = depth;
-        nearest.color = floats(lit(surface, t, weights, plane));
+        if (depth < nearest.depth) nearest = {depth, s, t};
       }
     }
   }
 
-  [[nodiscard]] preint::Color lit(const OpaqueSurface& surface, std::size_t t,
-                                  const Eigen::Vector3d& weights,
-                                  const Eigen::Vector2d& plane) const {
+  /// The color of the nearest triangle of a pixel.
+  [[nodiscard]] preint::Color lit(const std::optional<Lights>& lights, std::size_t pixel) const {
+    const auto width = static_cast<std::size_t>(frame_.width());
+    const Eigen::Vector2d plane =
+        frame_.image_plane(static_cast<double>(pixel % width), static_cast<double>(pixel / width));
+    const OpaqueSurface& surface = surfaces_[nearest_[pixel].surface];
+    const std::size_t t = nearest_[pixel].triangle;
+    const std::array<std::uint32_t, 3>& v = surface.triangles[t];
+    std::array<Eigen::Vector3d, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = frame_.to_camera(surface.points[v[i]]);
+    const Eigen::Vector3d sides = edges_of(v, p) * Eigen::Vector3d(plane.x(), plane.y(), 1);
+    const Eigen::Vector3d weights = sides / sides.sum();
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
       const double weight = weights[static_cast<Eigen::Index>(i)];
       normal += weight * surface.normals[3 * t + i].stableNormalized();
-      point += weight * surface.points[surface.triangles[t][i]];
+      point += weight * surface.points[v[i]];
     }
     const Eigen::Vector3d to_viewer =
         -(frame_.axes().transpose() * frame_.ray_direction(plane)).normalized();
-    return shade(lights_, surface.color, preint::Material{}, point, normal, to_viewer);
+    return shade(lights, surface.color, preint::Material{}, point, normal, to_viewer);
   }
 
   const Frame& frame_;
-  const std::optional<Lights>& lights_;
-  std::vector<OpaqueFragment> nearest_;
+  std::span<const OpaqueSurface> surfaces_;
+  std::vector<Seen> nearest_;
 };
 
-/// Makes one of what is one line after another at the same place; the fragments of one pixel,
-/// nearest first.
+/// The fragments of one pixel, nearest first: makes one of what is one line after another at the
+/// same place, and leaves out what is behind something solid.
 void merge(std::span<const PlacedFragment> placed, std::vector<OpaqueFragment>& result) {
   double extent = 0;
   const std::size_t first = result.size();
   for (const PlacedFragment& next : placed) {
-    if (result.size() > first && next.fragment.depth - result.back().depth <= extent) {
+    const bool alone = result.size() == first;
+    if (!alone && next.extent > 0 && next.fragment.depth - result.back().depth <= extent) {
       if (next.fragment.coverage > result.back().coverage) result.back() = next.fragment;
       continue;
     }
+    if (!alone && result.back().coverage >= 1) return;
     result.push_back(next.fragment);
     extent = next.extent;
   }
@@ -254,46 +292,35 @@ OpaqueLayers::OpaqueLayers(const OpaqueGeometry& geometry, const std::optional<L
                            const Frame& frame, int samples)
     : width_(frame.width()), height_(frame.height()) {
   find_fragments(geometry, lights, frame, samples);
-  for (std::size_t pixel = 0; pixel + 1 < starts_.size(); ++pixel) {
-    const std::size_t count = starts_[pixel + 1] - starts_[pixel];
-    if (count == 0) continue;
-    const bool solid = fragments_[starts_[pixel + 1] - 1].coverage >= 1;
-    partial_layers_ = std::max(partial_layers_, solid ? count - 1 : count);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const std::span<const OpaqueFragment> fragments = covering(i);
+    const bool solid = fragments.back().coverage >= 1;
+    partial_layers_ = std::max(partial_layers_, fragments.size() - (solid ? 1 : 0));
   }
 }
 
 void OpaqueLayers::find_fragments(const OpaqueGeometry& geometry,
                                   const std::optional<Lights>& lights, const Frame& frame,
                                   int samples) {
-  std::vector<PlacedFragment> lines;
-  LineRaster raster(frame, samples, lines);
+  std::vector<PlacedFragment> placed;
+  LineRaster raster(frame, samples, placed);
   for (const OpaqueLine& line : geometry.lines) raster.draw(line);
+  if (!geometry.surfaces.empty()) {
+    const TriangleRaster triangles(frame, geometry.surfaces);
+    triangles.add_fragments(lights, placed);
+  }
   std::stable_sort(
-      lines.begin(), lines.end(), [](const PlacedFragment& a, const PlacedFragment& b) {
+      placed.begin(), placed.end(), [](const PlacedFragment& a, const PlacedFragment& b) {
         return a.pixel != b.pixel ? a.pixel < b.pixel : a.fragment.depth < b.fragment.depth;
       });
-  std::optional<TriangleRaster> triangles;
-  if (!geometry.surfaces.empty()) triangles.emplace(frame, lights);
-  for (const OpaqueSurface& surface : geometry.surfaces) triangles->draw(surface);
-
-  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  starts_.reserve(pixels + 1);
-  std::size_t next = 0;
-  std::vector<OpaqueFragment> merged;
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+  for (std::size_t first = 0; first < placed.size();) {
+    const std::size_t pixel = placed[first].pixel;
+    std::size_t end = first + 1;
+    while (end < placed.size() && placed[end].pixel == pixel) ++end;
+    pixels_.push_back(pixel);
     starts_.push_back(fragments_.size());
-    const std::size_t first = next;
-    while (next < lines.size() && lines[next].pixel == pixel) ++next;
-    merged.clear();
-    merge(std::span(lines).subspan(first, next - first), merged);
-    const double end = triangles ? triangles->nearest()[pixel].depth : kInfinity;
-    bool open = true;
-    for (const OpaqueFragment& fragment : merged) {
-      if (!open || fragment.depth >= end) break;
-      fragments_.push_back(fragment);
-      open = fragment.coverage < 1;
-    }
-    if (open && end < kInfinity) fragments_.push_back(triangles->nearest()[pixel]);
+    merge(std::span(placed).subspan(first, end - first), fragments_);
+    first = end;
   }
   starts_.push_back(fragments_.size());
 }
@@ -301,56 +328,65 @@ void OpaqueLayers::find_fragments(const OpaqueGeometry& geometry,
 std::span<const OpaqueFragment> OpaqueLayers::fragments(int x, int y) const {
   const std::size_t pixel =
       static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-  return std::span(fragments_).subspan(starts_[pixel], starts_[pixel + 1] - starts_[pixel]);
+  const auto found = std::lower_bound(pixels_.begin(), pixels_.end(), pixel);
+  if (found == pixels_.end() || *found != pixel) return {};
+  return covering(static_cast<std::size_t>(found - pixels_.begin()));
+}
+
+std::vector<double> OpaqueLayers::all(double end) const {
+  return std::vector<double>(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                             end);
 }
 
 std::vector<double> OpaqueLayers::solid_ends() const {
-  std::vector<double> ends(starts_.size() - 1, kInfinity);
-  for (std::size_t pixel = 0; pixel < ends.size(); ++pixel) {
-    if (starts_[pixel] == starts_[pixel + 1]) continue;
-    const OpaqueFragment& last = fragments_[starts_[pixel + 1] - 1];
-    if (last.coverage >= 1) ends[pixel] = last.depth;
+  std::vector<double> ends = all(kInfinity);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const OpaqueFragment& last = covering(i).back();
+    if (last.coverage >= 1) ends[pixels_[i]] = last.depth;
   }
   return ends;
 }
 
 std::vector<double> OpaqueLayers::partial_ends(std::size_t layer) const {
-  std::vector<double> ends(starts_.size() - 1, -kInfinity);
-  for (std::size_t pixel = 0; pixel < ends.size(); ++pixel) {
-    const std::size_t at = starts_[pixel] + layer;
-    if (at < starts_[pixel + 1] && fragments_[at].coverage < 1) ends[pixel] = fragments_[at].depth;
+  std::vector<double> ends = all(-kInfinity);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const std::span<const OpaqueFragment> fragments = covering(i);
+    if (layer < fragments.size() && fragments[layer].coverage < 1)
+      ends[pixels_[i]] = fragments[layer].depth;
   }
   return ends;
 }
 
 Image OpaqueLayers::compose(const std::function<Image(RayEnds)>& draw) const {
   Image image = draw(solid_ends());
-  // What each pixel still shows behind the layers in work, and the sum of those in front.
-  std::vector<float> left(starts_.size() - 1, 1);
-  std::vector<float> sums(4 * left.size(), 0);
-  const auto over = [](const float* front, const OpaqueFragment& behind, float* rgba) {
+  const auto over = [](const float* front, const OpaqueFragment& behind) {
     const float through = 1 - front[3];
+    std::array<float, 4> rgba{};
     for (std::size_t c = 0; c < 3; ++c) rgba[c] = front[c] + through * behind.color[c];
     rgba[3] = front[3] + through;
+    return rgba;
   };
+  // Of each covered pixel what it still shows behind the layers in work, and the sum of those in
+  // front.
+  std::vector<float> left(pixels_.size(), 1);
+  std::vector<std::array<float, 4>> sums(pixels_.size(), std::array<float, 4>{});
   for (std::size_t layer = 0; layer < partial_layers_; ++layer) {
     const Image front = draw(partial_ends(layer));
-    for (std::size_t pixel = 0; pixel < left.size(); ++pixel) {
-      const std::size_t at = starts_[pixel] + layer;
-      if (at >= starts_[pixel + 1] || fragments_[at].coverage >= 1) continue;
-      std::array<float, 4> rgba{};
-      over(front.rgba.data() + 4 * pixel, fragments_[at], rgba.data());
-      for (std::size_t c = 0; c < 4; ++c)
-        sums[4 * pixel + c] += left[pixel] * fragments_[at].coverage * rgba[c];
-      left[pixel] *= 1 - fragments_[at].coverage;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      const std::span<const OpaqueFragment> fragments = covering(i);
+      if (layer >= fragments.size() || fragments[layer].coverage >= 1) continue;
+      const std::array<float, 4> rgba = over(front.rgba.data() + 4 * pixels_[i], fragments[layer]);
+      const float coverage = fragments[layer].coverage;
+      for (std::size_t c = 0; c < 4; ++c) sums[i][c] += left[i] * coverage * rgba[c];
+      left[i] *= 1 - coverage;
     }
   }
-  for (std::size_t pixel = 0; pixel < left.size(); ++pixel) {
-    if (starts_[pixel] == starts_[pixel + 1]) continue;
-    float* rgba = image.rgba.data() + 4 * pixel;
-    const OpaqueFragment& last = fragments_[starts_[pixel + 1] - 1];
-    if (last.coverage >= 1) over(rgba, last, rgba);
-    for (std::size_t c = 0; c < 4; ++c) rgba[c] = sums[4 * pixel + c] + left[pixel] * rgba[c];
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    float* out = image.rgba.data() + 4 * pixels_[i];
+    const OpaqueFragment& last = covering(i).back();
+    std::array<float, 4> rest = {out[0], out[1], out[2], out[3]};
+    if (last.coverage >= 1) rest = over(out, last);
+    for (std::size_t c = 0; c < 4; ++c) out[c] = sums[i][c] + left[i] * rest[c];
   }
   return image;
 }

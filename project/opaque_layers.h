@@ -42,7 +42,7 @@ class OpaqueLayers {
   OpaqueLayers(const OpaqueGeometry& geometry, const std::optional<Lights>& lights,
                const Frame& frame, int samples);
 
-  /// Nearest first; the last one may be solid (coverage 1), the others are not.
+  /// Of a pixel, nearest first; the last one may be solid (coverage 1), the others are not.
   [[nodiscard]] std::span<const OpaqueFragment> fragments(int x, int y) const;
 
   /// The most fragments of a pixel that are not solid.
@@ -55,6 +55,12 @@ class OpaqueLayers {
   /// not wanted.
   [[nodiscard]] std::vector<double> partial_ends(std::size_t layer) const;
 
+  /// Memory.
+  [[nodiscard]] std::size_t bytes() const {
+    return fragments_.size() * sizeof(OpaqueFragment) +
+           (starts_.size() + pixels_.size()) * sizeof(std::size_t);
+  }
+
   /// The picture of the volume together with the opaque geometry; `draw` makes that of the volume
   /// alone, for rays that end where they are told (pixels that are not wanted may hold anything).
   /// It is called once, and once more for each of the partial layers.
@@ -64,10 +70,18 @@ class OpaqueLayers {
   void find_fragments(const OpaqueGeometry& geometry, const std::optional<Lights>& lights,
                       const Frame& frame, int samples);
 
+  /// The same end for all pixels.
+  [[nodiscard]] std::vector<double> all(double end) const;
+  /// Of the covered pixel number i.
+  [[nodiscard]] std::span<const OpaqueFragment> covering(std::size_t i) const {
+    return std::span(fragments_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
+  }
+
   int width_;
   int height_;
+  std::vector<std::size_t> pixels_;        // that are covered, ascending: y * width + x
   std::vector<OpaqueFragment> fragments_;  // pixel by pixel
-  std::vector<std::size_t> starts_;        // of each pixel in fragments_, and the end
+  std::vector<std::size_t> starts_;        // of each covered pixel in fragments_, and the end
   std::size_t partial_layers_ = 0;
 };
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
+#include <span>
+#include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -20,18 +21,41 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of the pixels of the region that the image has.
-std::pair<double, double> range_of_ends(RayEnds ends, const Image& image, const Region& region) {
-  std::pair<double, double> range{kInfinity, -kInfinity};
-  for (int y = region.y; y < std::min(region.y + region.height, image.height); ++y) {
-    for (int x = region.x; x < std::min(region.x + region.width, image.width); ++x) {
+/// What the ends of rays say of a tile.
+struct TileEnds {
+  Region wanted;  ///< the pixels that are wanted lie in here; none: of no width
+  double nearest = kInfinity;
+};
+
+TileEnds tile_ends(RayEnds ends, const Image& image, const Region& tile) {
+  TileEnds result;
+  Eigen::AlignedBox2i box;
+  for (int y = tile.y; y < std::min(tile.y + tile.height, image.height); ++y) {
+    for (int x = tile.x; x < std::min(tile.x + tile.width, image.width); ++x) {
       const double end = ends[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                               static_cast<std::size_t>(x)];
-      range.first = std::min(range.first, end);
-      range.second = std::max(range.second, end);
+      if (end == -kInfinity) continue;
+      result.nearest = std::min(result.nearest, end);
+      box.extend(Eigen::Vector2i(x, y));
     }
   }
-  return range;
+  if (!box.isEmpty()) {
+    result.wanted = {box.min().x(), box.min().y(), box.sizes().x() + 1, box.sizes().y() + 1};
+  }
+  return result;
+}
+
+/// The cells, in their order, with pixels in the region.
+void keep_cells_in(const Region& region, const DrawnCells& drawn,
+                   std::span<const std::uint32_t> cells, std::vector<std::uint32_t>& kept) {
+  kept.clear();
+  for (const std::uint32_t cell : cells) {
+    const PixelBounds& bounds = drawn.cells[cell].bounds;
+    if (bounds.first_x < region.x + region.width && bounds.last_x >= region.x &&
+        bounds.first_y < region.y + region.height && bounds.last_y >= region.y) {
+      kept.push_back(cell);
+    }
+  }
 }
 
 template <class T>
@@ -118,7 +142,9 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   if (scene_.opaque.empty()) {
     image = draw_tiles(shared, stats);
   } else {
+    const base::Stopwatch layering;
     const OpaqueLayers opaque(scene_.opaque, scene_.lights, frame, scene_.samples);
+    stats.add(Effect::opaque, opaque.bytes(), layering.milliseconds());
     image = opaque.compose([&](RayEnds ends) {
       shared.ends = ends;
       return draw_tiles(shared, stats);
@@ -137,6 +163,7 @@ Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
   struct Worker {
     TileBuffers buffers;
     TileOrder order;
+    std::vector<std::uint32_t> kept;
     double order_ms = 0;
     std::uint64_t fragments = 0;
   };
@@ -150,13 +177,15 @@ Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
                             shared.tile_size, shared.tile_size};
         Picture own = shared;
         own.image = &image;
-        if (!shared.ends.empty()) {
-          const auto [nearest, farthest] = range_of_ends(shared.ends, image, region);
-          if (farthest == -kInfinity) return;
-          if (nearest == kInfinity) own.ends = {};
-        }
         Worker& worker = workers.local();
         std::span<const std::uint32_t> cells = bins_.cells(tile);
+        if (!shared.ends.empty()) {
+          const TileEnds ends = tile_ends(shared.ends, image, region);
+          if (ends.wanted.width == 0) return;
+          if (ends.nearest == kInfinity) own.ends = {};
+          keep_cells_in(ends.wanted, cells_, cells, worker.kept);
+          cells = worker.kept;
+        }
         if (blends) {
           const base::Stopwatch ordering;
           cells = worker.order.front_to_back(cells, cells_, points_, region);

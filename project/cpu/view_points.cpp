@@ -47,7 +47,8 @@ void ViewPoints::project(const mesh::TetMesh& mesh, const DrawnCells& cells, con
 
 ClippedDepths clipped_depths(std::span<const ClipPlane> planes, RayEnds ends, const Frame& frame,
                              const Projection& projection, int x, int y) {
-  DepthRange kept = clipped_ray(planes, frame, frame.image_plane(x, y));
+  DepthRange kept;
+  if (!planes.empty()) kept = clipped_ray(planes, frame, frame.image_plane(x, y));
   if (!ends.empty() && x < frame.width() && y < frame.height()) {
     const std::size_t pixel =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +

@@ -298,7 +298,9 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   if (scene_.opaque.empty()) {
     image = draw_rays(frame, view, {}, stats);
   } else {
+    const base::Stopwatch layering;
     const OpaqueLayers opaque(scene_.opaque, scene_.lights, frame, scene_.samples);
+    stats.add(Effect::opaque, opaque.bytes(), layering.milliseconds());
     image = opaque.compose([&](RayEnds ends) { return draw_rays(frame, view, ends, stats); });
   }
   stats.add(Effect::segments, 0, clock.milliseconds());

@@ -129,6 +129,8 @@ TEST_F(FigureCommand, ASurfaceIsSeenThroughTheVolume) {
   std::ofstream(output_.file("empty.off")) << "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n";
   expect_error(base + "--surface " + output_.file("empty.off") + " -o " + output_.file("a.png"), 1,
                "empty.off: has no faces to draw");
+  expect_error(base + "--surface " + sphere() + " -o " + output_.file("a.png"), 1,
+               "--surface, which reads .stl");
   expect_error(base + "--surface " + file("none.stl") + " -o " + output_.file("a.png"), 1,
                "none.stl");
   expect_error(base + "--outline --mode thickness -o " + output_.file("a.png"), 2, "thickness");

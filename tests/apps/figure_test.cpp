@@ -13,6 +13,7 @@
 #include "project/render.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tetraglass::apps {
 namespace {
@@ -184,6 +185,40 @@ TEST_F(FigureTest, ALongTitleIsCut) {
   EXPECT_LE(text_size(cut, font).x(), 60);
   EXPECT_TRUE(cut.ends_with("…"));
   EXPECT_EQ(shortened("short", font, 600), "short");
+}
+
+// File and field names may be in any encoding.
+TEST_F(FigureTest, TextThatIsNoUtf8IsSetAllTheSame) {
+  EXPECT_EQ(printable("caf\xe9 \xff x\ny"), "caf? ? x y");
+  EXPECT_EQ(printable("ψ²·10⁻³ 😀"), "ψ²·10⁻³ 😀");
+  EXPECT_EQ(printable("\xc0\x80 \xed\xa0\x80 \xf4\x90\x80\x80 \xe2\x82"), "?? ??? ???? ??");
+  arguments_.figure.title = "\xff";
+  arguments_.figure.legend = true;
+  const project::Scene scene = make_scene(arguments_, mesh_);
+  const Figure figure(arguments_, scene, 400, 300);
+  const project::Image image =
+      figure.around(project::Image(scene.width, scene.height), scene.camera);
+  const int top = 300 - scene.height;
+  bool title = false;
+  for (std::size_t i = 0; i < 4 * 400 * static_cast<std::size_t>(top); ++i)
+    title = title || image.rgba[i] > 0.5F;
+  EXPECT_TRUE(title) << "the question mark";
+}
+
+TEST_F(FigureTest, SurfacesBelongToTheBox) {
+  arguments_.figure.outline = true;
+  const tests::TemporaryFolder folder;
+  tests::write_text(folder.file("s.off"), "OFF\n3 1 0\n0 0 0\n5 0 0\n0 0 -3\n3 0 1 2\n");
+  arguments_.figure.surfaces = {folder.file("s.off")};
+  const project::Scene scene = make_scene(arguments_, mesh_);
+  const mesh::Box box = drawn_box(scene);
+  EXPECT_EQ(box.min(), Eigen::Vector3d(-1, -0.5, -3));
+  EXPECT_EQ(box.max(), Eigen::Vector3d(5, 0.75, 2));
+  ASSERT_EQ(scene.opaque.lines.size(), 12U);
+  mesh::Box lines;
+  for (const project::OpaqueLine& line : scene.opaque.lines)
+    lines.extend(line.from).extend(line.to);
+  EXPECT_TRUE(lines.isApprox(box));
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -12,6 +12,7 @@
 #include "base/errors.h"
 #include "mesh/decompose.h"
 #include "mesh/import.h"
+#include "mesh/time_step.h"
 #include "support/damaged.h"
 #include "support/meshes.h"
 #include "support/temporary_folder.h"
@@ -385,7 +386,14 @@ TEST(ReadCgns, TimeSteps) {
   EXPECT_EQ(temperature(""), 102);
   EXPECT_EQ(temperature("0.5"), 101);
   EXPECT_EQ(temperature("index:0"), 100);
-  EXPECT_THROW(static_cast<void>(temperature("index:3")), base::UsageError);
+  try {
+    static_cast<void>(temperature("index:3"));
+    FAIL() << "there is no such step";
+  } catch (const NoTimeStepError& error) {  // from the process that reads
+    EXPECT_EQ(error.steps(), 3U);
+    EXPECT_EQ(std::string(error.what()),
+              "there is no time step 'index:3'; there are index:0 to index:2");
+  }
 }
 
 TEST(ReadCgns, SurfacesAreFilled) {

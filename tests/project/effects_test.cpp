@@ -80,6 +80,8 @@ struct Addition {
   std::set<Effect> effects;
 };
 
+const Eigen::Vector3d kOnes = Eigen::Vector3d::Ones();
+
 Lights one_light() {
   Lights lights;
   lights.lights = {DirectionalLight{}};
@@ -119,6 +121,11 @@ TEST_F(EffectsTest, WhatIsAddedCostsItselfAndChangesNothingElse) {
          s.lights = one_light();
        },
        {Effect::gradients, Effect::materials, Effect::lights}},
+      {"outline",
+       [](Scene& s) {
+         s.opaque.lines = box_outline({-0.5 * kOnes, 0.5 * kOnes}, {1, 1, 1}, 1.5);
+       },
+       {Effect::opaque}},
       {"samples", [](Scene& s) { s.samples = 2; }, {Effect::samples}}};
   const Drawn without = draw(scene(Mode::full));
   for (const Addition& addition : additions) {

@@ -315,6 +315,56 @@ TEST_F(OpaqueTest, ThicknessAndGridsRefuseIt) {
   Scene wanted = scene(Mode::thickness, true);
   wanted.opaque.lines = box_outline(kBox, {1, 1, 1}, 1);
   EXPECT_THROW((void)plan(wanted, {}), base::UsageError);
+  wanted.mode = Mode::full;
+  wanted.grid = mesh::rectilinear_grid(mesh_);
+  for (const Projector projector : {Projector::slices, Projector::grid_reference}) {
+    Request request;
+    request.projector = projector;
+    EXPECT_THROW((void)plan(wanted, request), base::UsageError) << to_string(projector);
+    wanted.opaque = {};
+    EXPECT_NO_THROW((void)plan(wanted, request)) << to_string(projector);
+    wanted.opaque.lines = box_outline(kBox, {1, 1, 1}, 1);
+  }
+}
+
+TEST_F(OpaqueTest, APartOfThePictureIsThatOfTheWhole) {
+  Scene wanted = scene(Mode::full, false);
+  wanted.opaque.lines = box_outline(kBox, {0.7, 0.6, 0.5}, 2.5);
+  wanted.opaque.surfaces = {octahedron(0.6)};
+  for (const Projector projector : kCellProjectors) {
+    const Image whole = draw(wanted, projector);
+    Scene part = wanted;
+    part.region = Region{13, 20, 30, 17};
+    const Image image = draw(part, projector);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        for (int c = 0; c < 4; ++c) {
+          ASSERT_NEAR(image.pixel(x, y)[c], whole.pixel(x + 13, y + 20)[c], 1e-5)
+              << to_string(projector) << ' ' << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
+// Views one after the other: nothing of one is left in the next.
+TEST_F(OpaqueTest, OneProjectorDrawsManyViews) {
+  for (const Projector projector : {Projector::cpu, Projector::gl}) {
+    Scene seen = scene(Mode::full, false);
+    seen.opaque.surfaces = {octahedron(0.6)};
+    seen.opaque.lines = box_outline(kBox, {1, 1, 1}, 1);
+    Request request;
+    request.projector = projector;
+    const Plan how = plan(seen, request);
+    Stats stats;
+    SceneProjector projecting(seen, how, stats);
+    for (int view = 0; view < 3; ++view) {
+      seen.camera.eye += Eigen::Vector3d(0.3, -0.5, 0.2);
+      seen.width -= 8;
+      const Image image = projecting.draw(stats);
+      EXPECT_EQ(image.rgba, render(seen, how, stats).rgba) << to_string(projector) << view;
+    }
+  }
 }
 
 }  // namespace
