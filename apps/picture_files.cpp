@@ -39,6 +39,10 @@ std::string extension_of(const std::string& file) {
 
 }  // namespace
 
+project::Image scaled_for_8_bits(const project::Image& image, Mode mode) {
+  return mode == Mode::thickness ? scaled(image, longest_path(image)) : image;
+}
+
 void check_outputs(const RenderArguments& arguments) {
   std::vector<std::string> known = project::image_extensions();
   if (draws_frames(arguments)) known.insert(known.end(), {".mp4", ".webm", ".gif"});

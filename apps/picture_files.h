@@ -12,6 +12,10 @@
 
 namespace tetraglass::apps {
 
+/// A picture of mode thickness, which is in the mesh's units of length, scaled for 8 bits so that
+/// the longest path is white; of other modes as it is.
+[[nodiscard]] project::Image scaled_for_8_bits(const project::Image& image, project::Mode mode);
+
 /// Checks the names of all outputs before anything long is done. Throws WriteError for an unknown
 /// extension or a folder that cannot be written to.
 void check_outputs(const RenderArguments& arguments);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -237,10 +238,10 @@ project::GlRequest make_gl_request(const RenderArguments& arguments) {
   return request;
 }
 
-/// All that should be seen in a picture that is framed by itself.
-std::vector<Eigen::Vector3d> shown_points(const RenderArguments& arguments,
-                                          const project::Scene& scene) {
-  std::vector<Eigen::Vector3d> points = scene.mesh->points;
+/// What should be seen beside the points of the mesh in a picture that is framed by itself.
+std::vector<Eigen::Vector3d> points_around(const RenderArguments& arguments,
+                                           const project::Scene& scene) {
+  std::vector<Eigen::Vector3d> points;
   if (arguments.figure.outline || arguments.figure.axes) {
     const mesh::Box box = drawn_box(scene);
     for (int i = 0; i < 8; ++i) points.push_back(box.corner(static_cast<mesh::Box::CornerType>(i)));
@@ -255,7 +256,10 @@ std::vector<Eigen::Vector3d> shown_points(const RenderArguments& arguments,
 void frame_scene(const RenderArguments& arguments, const Figure& figure, project::Scene& scene) {
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const Eigen::Vector3d middle = mesh::bounds(*scene.mesh).center();
-  const std::vector<Eigen::Vector3d> points = shown_points(arguments, scene);
+  // A copy of the mesh's points only where there are others.
+  std::vector<Eigen::Vector3d> all = points_around(arguments, scene);
+  if (!all.empty()) all.insert(all.begin(), scene.mesh->points.begin(), scene.mesh->points.end());
+  const std::span<const Eigen::Vector3d> points = all.empty() ? scene.mesh->points : all;
   scene.camera = make_camera(arguments, points, middle, aspect);
   if (!is_framed(arguments)) return;
   const int frames = std::max(1, orbit_frames(arguments));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -10,9 +9,6 @@
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "project/cpu/cell_projector.h"
-#include "project/gl/cell_projector.h"
-#include "project/gl/context.h"
 #include "project/render.h"
 
 namespace tetraglass::project {
@@ -145,32 +141,6 @@ bool is_possible(const Scene& scene, const StudyCase& one) {
   }
 }
 
-/// The projector of one plan, ready to draw frames.
-class Drawing {
- public:
-  Drawing(const Scene& scene, const Plan& plan) : scene_(scene), plan_(plan) {
-    if (plan.projector == Projector::cpu) cpu_ = std::make_unique<cpu::CellProjector>(scene, plan);
-    if (plan.projector != Projector::gl) return;
-    context_ = gl::Context::create(plan.context);
-    Stats stats;
-    gl_ = std::make_unique<gl::CellProjector>(*context_, scene, plan, stats);
-  }
-
-  [[nodiscard]] Image frame() {
-    Stats stats;
-    if (cpu_) return cpu_->draw(make_frame(scene_), stats);
-    if (gl_) return gl_->draw(make_frame(scene_), stats);
-    return render(scene_, plan_, stats);
-  }
-
- private:
-  const Scene& scene_;
-  const Plan& plan_;
-  std::unique_ptr<cpu::CellProjector> cpu_;
-  std::unique_ptr<gl::Context> context_;
-  std::unique_ptr<gl::CellProjector> gl_;
-};
-
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -192,12 +162,13 @@ void draw_once(const Scene& study_scene, StudyPoint& point, Times& times) {
     }
     const Scene& scene = shaded ? *shaded : study_scene;
     const Plan how = plan(scene, point.what.request);
-    base::Stopwatch clock;
-    Drawing drawing(scene, how);
-    point.image = drawing.frame();
+    Stats stats;
+    const base::Stopwatch clock;
+    SceneProjector projector(scene, how, stats);
+    point.image = projector.draw(stats);
     times.set_up.push_back(clock.milliseconds());
     const base::Stopwatch second;
-    point.image = drawing.frame();
+    point.image = projector.draw(stats);
     times.frame.push_back(second.milliseconds());
   } catch (const base::Error& error) {  // no context, no memory: told in the table
     point.failure = error.what();

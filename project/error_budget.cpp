@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "preint/table_error.h"
+#include "project/longest_edge.h"
 #include "project/render.h"
 
 namespace tetraglass::project {
@@ -79,20 +80,6 @@ std::vector<Rung> cpu_ladder(const Scene& scene, const Request& request, double 
   judge.opaque_at.reset();
   ladder.push_back({judge, kReferenceError, "reference: double precision, slow"});
   return ladder;
-}
-
-double longest_edge(const Scene& scene) {
-  double longest = 0;
-  for (const std::uint32_t index : scene.drawable.cells) {
-    const mesh::Cell& cell = scene.mesh->cells[index];
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        longest =
-            std::max(longest, (scene.mesh->points[cell[i]] - scene.mesh->points[cell[j]]).norm());
-      }
-    }
-  }
-  return longest;
 }
 
 /// Tables from small to large until one is predicted to keep within the error.

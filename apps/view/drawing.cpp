@@ -10,7 +10,7 @@
 
 #include "apps/figure.h"
 #include "apps/mesh_input.h"
-#include "apps/picture_output.h"
+#include "apps/picture_files.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
 

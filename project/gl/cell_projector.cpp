@@ -13,6 +13,7 @@
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/longest_edge.h"
 #include "project/shown_cells.h"
 
 namespace tetraglass::project::gl {
@@ -25,21 +26,6 @@ preint::TransferFunction normalized(const preint::TransferFunction& tf, double r
     point.extinction = std::min(point.extinction * radius, MediumBuffers::kMostExtinction);
   }
   return preint::TransferFunction(std::move(points));
-}
-
-// No ray is longer within a cell.
-double longest_edge(const Scene& scene) {
-  double longest = 0;
-  for (const std::uint32_t index : scene.drawable.cells) {
-    const mesh::Cell& cell = scene.mesh->cells[index];
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t j = i + 1; j < 4; ++j) {
-        const Eigen::Vector3d edge = scene.mesh->points[cell[i]] - scene.mesh->points[cell[j]];
-        longest = std::max(longest, edge.stableNorm());
-      }
-    }
-  }
-  return longest;
 }
 
 Table table_2d(const Context& context, const Scene& scene, const Plan& plan, double low,
