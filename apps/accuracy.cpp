@@ -92,9 +92,11 @@ void add_accuracy(CLI::App& program) {
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->render.input,
                   "A mesh with fields, a surface, a point cloud or a grid")
+      ->type_name("FILE")
       ->required();
   app->add_option("-o,--output", arguments->output,
                   "The page, self-contained; its numbers go to a .csv beside it")
+      ->type_name("FILE")
       ->required();
   const std::string quick_form =
       fmt::format("{} pixels, up to {} rounds, what {} s suffice for (default)", kQuickSize,

@@ -69,9 +69,10 @@ void add_camera_options(CLI::App* app, CameraArguments& a) {
   app->add_option("--ortho", a.ortho,
                   "Parallel view; the height of the picture in the mesh's units");
   app->add_option(
-      "--camera", a.file,
-      "FILE.json in place of all these: {\"eye\": [X,Y,Z], \"target\": [X,Y,Z], \"up\": "
-      "[X,Y,Z], \"fov\": DEG or \"ortho\": HEIGHT}, or a session of the window");
+         "--camera", a.file,
+         "FILE.json in place of all these: {\"eye\": [X,Y,Z], \"target\": [X,Y,Z], \"up\": "
+         "[X,Y,Z], \"fov\": DEG or \"ortho\": HEIGHT}, or a session of the window")
+      ->type_name("FILE");
 }
 
 bool is_framed(const CameraArguments& arguments) {

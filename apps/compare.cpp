@@ -57,9 +57,12 @@ void add_compare(CLI::App& program) {
       program.add_subcommand("compare", "Largest and RMS difference and PSNR of two pictures");
   auto arguments = std::make_shared<CompareArguments>();
   app->footer("usage: tetraglass compare A B [-o diff.png] [--json]");
-  app->add_option("A", arguments->a, "A picture: .png, .exr or .npy")->required();
-  app->add_option("B", arguments->b, "A picture of the same size")->required();
-  app->add_option("-o,--output", arguments->output, "A picture of the difference, scaled to white");
+  app->add_option("A", arguments->a, "A picture: .png, .exr or .npy")
+      ->type_name("FILE")
+      ->required();
+  app->add_option("B", arguments->b, "A picture of the same size")->type_name("FILE")->required();
+  app->add_option("-o,--output", arguments->output, "A picture of the difference, scaled to white")
+      ->type_name("FILE");
   app->add_flag("--json", arguments->json,
                 "Print JSON (psnr_db is null where the pictures are equal)");
   app->callback([arguments] { compare(*arguments); });

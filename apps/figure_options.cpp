@@ -12,6 +12,7 @@ void add_figure_options(CLI::App* app, FigureArguments& a) {
   app->add_option("--title", a.title, "A line above the picture");
   app->add_option("--surface", a.surfaces,
                   ".stl, .obj, .off or .ply: an opaque surface among the volume; repeatable")
+      ->type_name("FILE")
       ->take_all()
       ->expected(1);
   app->add_option("--surface-color", a.surface_color, "Linear R,G,B of all surfaces");

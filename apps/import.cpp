@@ -84,8 +84,11 @@ void add_import(CLI::App& program) {
   auto arguments = std::make_shared<ImportArguments>();
   app->footer("usage: tetraglass import INPUT -o OUT.vtu [options]");
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
+      ->type_name("FILE")
       ->required();
-  app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
+  app->add_option("-o,--output", arguments->output, "The .vtu file to write")
+      ->type_name("FILE")
+      ->required();
   add_import_options(*app, arguments->options);
   app->add_option("--add-field", arguments->new_fields,
                   "NAME=EXPRESSION in x, y, z, radius and point fields, e.g. 'hot=max(0, T - "

@@ -141,6 +141,7 @@ void add_info(CLI::App& program) {
   auto arguments = std::make_shared<InfoArguments>();
   app->footer("usage: tetraglass info INPUT [--json]");
   app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud, grid or volume")
+      ->type_name("FILE")
       ->required();
   add_import_options(*app, arguments->options);
   app->add_flag("--json", arguments->json, "Print JSON");

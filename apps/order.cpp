@@ -287,7 +287,9 @@ void add_order(CLI::App& program) {
   auto arguments = std::make_shared<OrderArguments>();
   app->footer("usage: tetraglass order INPUT [camera] [--sort M] [--rays N] [--json]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")->required();
+  app->add_option("INPUT", arguments->input, "A mesh, surface, point cloud or grid")
+      ->type_name("FILE")
+      ->required();
   app->add_option(
          "--sort", arguments->sort,
          "auto (power on Delaunay meshes, else mpvo; fragments where cells hide each other in a "

@@ -7,6 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/described_commands.h"
+#include "apps/man_page.h"
+#include "apps/shell_completion.h"
 #include "apps/subcommands.h"
 #include "base/errors.h"
 #include "base/suggest.h"
@@ -84,6 +87,24 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, int a
   return error.what();
 }
 
+/// What a package installs beside the program, made of its help; printed instead of any work.
+void add_documents(CLI::App& program) {
+  program
+      .add_flag_callback("--man-page",
+                         [&program] {
+                           throw CLI::CallForVersion(
+                               man_page(describe(program), TETRAGLASS_VERSION), 0);
+                         })
+      ->group("");
+  program
+      .add_option_function<std::string>("--completion",
+                                        [&program](const std::string& shell) {
+                                          throw CLI::CallForVersion(
+                                              shell_completion(describe(program), shell), 0);
+                                        })
+      ->group("");
+}
+
 int report_failure(const std::string& what) {
   fmt::print(stderr, "tetraglass: error: {}\n", what);
   return kFailed;
@@ -107,6 +128,7 @@ int run(int argc, char** argv) {
   add_table(program);
   add_accuracy(program);
   add_view(program);
+  add_documents(program);
   try {
     program.parse(argc, argv);
     return 0;

@@ -249,17 +249,20 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "none | flat | smooth (default for mode iso) and, for mode full, whose medium is "
                   "then lit: single | weighted | interpolated | surface (see docs/lighting.md)");
   app->add_option("--lights", a.lights,
-                  "FILE.json of directional, point and rectangle lights. Default: a headlight");
+                  "FILE.json of directional, point and rectangle lights. Default: a headlight")
+      ->type_name("FILE");
   app->add_option(
       "--gradient", a.gradient,
       "vertex (default: interpolated) | cell: the normals of --shading; of grids central "
       "(default: differences one point up and down) | sobel (smoothed)");
   app->add_option("--modulate", a.modulate,
                   "G: opacity times min(1, |gradient| / G), shows boundaries");
-  app->add_option("--tf", a.transfer_function, transfer_function_help())->capture_default_str();
+  app->add_option("--tf", a.transfer_function, transfer_function_help())
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
   app->add_option(
       "--opacity", a.opacity,
-      "auto: show rare values, hide common ones (default for presets) | given: as --tf has it");
+      "auto (show rare values, hide common ones; default for presets) | given (as --tf has it)");
   app->add_option("--opacity-scale", a.opacity_scale, "All extinctions times this");
   app->add_flag("--log", a.logarithmic, "Spread --tf over the values logarithmically");
   app->add_option("--range", a.range,
@@ -319,7 +322,8 @@ void add_report_options(CLI::App* app, RenderArguments& a) {
   app->add_option("--threads", a.threads, "Most threads to use. Default: all");
   app->add_flag("--explain", a.explain,
                 "Print how the picture is drawn, and why, before drawing it");
-  app->add_option("--stats", a.stats, "Write times, counts and the plan to this JSON file");
+  app->add_option("--stats", a.stats, "Write times, counts and the plan to this JSON file")
+      ->type_name("FILE");
   app->add_option("--max-error", a.max_error,
                   "Largest error per channel: draw as cheaply as that allows, check random pixels "
                   "against the reference (500, or as many as --verify says), step up if need be");
@@ -335,11 +339,13 @@ void add_render(CLI::App& program) {
   app->footer("usage: tetraglass render INPUT -o OUT.png|.exr|.npy [-o ...] [options]");
   app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app->add_option("INPUT", arguments->input,
-                  "A mesh with fields, a surface, a point cloud or a grid");
+                  "A mesh with fields, a surface, a point cloud or a grid")
+      ->type_name("FILE");
   app->add_option("-o,--output", arguments->outputs,
                   ".png (8 bit sRGB over the background), .exr or .npy (linear premultiplied float "
                   "RGBA); repeatable. Of --orbit and --time all numbered: NAME-0000.png, or where "
                   "%04d is; or .mp4, .webm, .gif through ffmpeg")
+      ->type_name("FILE")
       ->take_all()
       ->expected(1);
   add_scene_options(app, *arguments);
@@ -351,9 +357,11 @@ void add_render(CLI::App& program) {
   add_method_options(app, *arguments);
   add_report_options(app, *arguments);
   app->add_option("--scene", arguments->scene,
-                  "FILE.json of options by their names; what is typed counts before it");
+                  "FILE.json of options by their names; what is typed counts before it")
+      ->type_name("FILE");
   app->add_option("--save-scene", arguments->save_scene,
-                  "Write all options that are given to a file for --scene");
+                  "Write all options that are given to a file for --scene")
+      ->type_name("FILE");
   app->callback([arguments, app] {
     if (!arguments->scene.empty()) apply_scene_file(*app, arguments->scene);
     if (arguments->input.empty()) throw base::UsageError("INPUT is required");

@@ -26,7 +26,9 @@ void add_sample(CLI::App& program) {
   app->add_option("NAME", arguments->name,
                   fmt::format("One of: {}", fmt::join(mesh::sample_names(), ", ")))
       ->required();
-  app->add_option("-o,--output", arguments->output, "The .vtu file to write")->required();
+  app->add_option("-o,--output", arguments->output, "The .vtu file to write")
+      ->type_name("FILE")
+      ->required();
   app->add_option("--cells", arguments->cells,
                   "About how many cells, such as 1e6 (default: the size of the published data "
                   "sets)");

@@ -226,7 +226,9 @@ void add_table(CLI::App& program) {
   app->add_option("--max-error", a->max_error,
                   "Instead of --size: the smallest table whose lookups err by no more (full2d, "
                   "full3d)");
-  app->add_option("--tf", a->transfer_function, transfer_function_help())->capture_default_str();
+  app->add_option("--tf", a->transfer_function, transfer_function_help())
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
   app->add_option("--range", a->range,
                   "LO:HI, the values of the table. Default: those of the transfer function");
   app->add_option(
@@ -253,9 +255,10 @@ void add_table(CLI::App& program) {
                   "adjacent segments has the crossing")
       ->capture_default_str();
   app->add_option(
-      "-o,--output", a->output,
-      ".npy of float32, [back][front][RGBA]; NxM: a length axis first; weighted: front- "
-      "and back-weighted first of all; psi: [back][front]");
+         "-o,--output", a->output,
+         ".npy of float32, [back][front][RGBA]; NxM: a length axis first; weighted: front- "
+         "and back-weighted first of all; psi: [back][front]")
+      ->type_name("FILE");
   app->add_flag("--json", a->json, "Print JSON");
   app->callback([a] { table(*a); });
 }

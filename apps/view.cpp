@@ -26,6 +26,7 @@ void add_options(CLI::App& app, RenderArguments& arguments) {
          "INPUT", arguments.input,
          "A mesh with fields, a surface, a point cloud, a grid, or a session that the window "
          "saved (.session.json)")
+      ->type_name("FILE")
       ->required();
   add_scene_options(&app, arguments);
   add_figure_options(&app, arguments.figure);
