@@ -4,31 +4,36 @@
 
 #include "base/errors.h"
 #include "project/light/plan_light.h"
+#include "project/plan_integrator.h"
 
 namespace tetraglass::project {
 namespace {
 
-// A 2D table of this size costs a few milliseconds, a 3D one about a second by brute force.
-constexpr int kTable2dSize = 512;
-constexpr int kTable3dSize = 128;
-constexpr int kTable3dLengths = 64;
-
-// The largest a texture may be on every context that is supported (OSMesa: 3D textures to 2048).
-constexpr int kLargestTable2d = 8192;
-constexpr int kLargestTable3d = 512;
-
 // Behind this opacity lies less than 2e-5 of any color.
 constexpr double kOpaqueAt = 0.99998;
-
-bool needs_integral(const Scene& scene) {
-  const bool field_maximum = scene.mode == Mode::mip && scene.mip_of == MipOf::field;
-  return !field_maximum && scene.mode != Mode::thickness;
-}
 
 std::string why_commutative(const Scene& scene) {
   if (scene.mode == Mode::iso) return "the nearest of opaque surfaces is found without";
   if (scene.mode == Mode::full) return "all light has one color: only the optical depth matters";
   return "mode " + to_string(scene.mode) + " does not depend on it";
+}
+
+[[noreturn]] void throw_unsorted(const Scene& scene) {
+  throw base::UsageError(
+      "mode " + to_string(scene.mode) +
+      " depends on the order of the cells: --sort none would draw a wrong "
+      "picture; use --sort mpvo, or a mode that needs no order (emission, mip, ...)");
+}
+
+std::string guarantee(SortMethod sort) {
+  switch (sort) {
+    case SortMethod::centroid:
+      return "approximate";
+    case SortMethod::power:
+      return "exact";
+    default:
+      return "exact unless cells hide each other in a ring";
+  }
 }
 
 void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
@@ -40,27 +45,28 @@ void plan_order_of_cpu(const Scene& scene, const Request& request, Plan& plan) {
   if (request.opaque_at && !(*request.opaque_at > 0 && *request.opaque_at <= 1)) {
     throw base::UsageError("--opaque-at needs an opacity above 0 and at most 1");
   }
-  const bool commutative = is_commutative(scene);
-  const bool has_it = !request.sort || *request.sort == SortMethod::fragments ||
-                      (commutative && *request.sort == SortMethod::none);
-  if (!has_it) {
-    throw base::UsageError(
-        "the cpu projector has one order only, exact at every pixel; leave out --sort " +
-        to_string(*request.sort));
-  }
-  if (commutative) {
+  // A table of colors is looked up color by color: the media differ.
+  const bool tabled = scene.mode == Mode::full &&
+                      request.integrator.value_or(Integrator::exact) != Integrator::exact;
+  const bool commutative = is_commutative(scene) && !tabled;
+  if (!commutative && request.sort == SortMethod::none) throw_unsorted(scene);
+  const bool by_cells =
+      request.sort && *request.sort != SortMethod::none && *request.sort != SortMethod::fragments;
+  if (commutative && !by_cells) {
     plan.sort = SortMethod::none;
     plan.reasons.push_back("order: none, " + why_commutative(scene));
     return;
   }
-  plan.sort = SortMethod::fragments;
+  plan.sort = request.sort.value_or(SortMethod::fragments);
   plan.opaque_at = request.opaque_at.value_or(kOpaqueAt);
-  plan.reasons.push_back(fmt::format(
-      "order: fragments, exact at every pixel; rays end at an opacity of {}", plan.opaque_at));
+  plan.reasons.push_back(fmt::format("order: {}; rays end at an opacity of {}",
+                                     plan.sort == SortMethod::fragments
+                                         ? "fragments, exact at every pixel"
+                                         : to_string(plan.sort) + ", " + guarantee(plan.sort),
+                                     plan.opaque_at));
 }
 
 void plan_order(const Scene& scene, const Request& request, Plan& plan) {
-  const std::string mode = to_string(scene.mode);
   if (draws_grid(plan.projector)) {
     if (request.sort)
       throw base::UsageError("grids are drawn in order by themselves: leave out --sort");
@@ -88,12 +94,7 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
                                : "order: fragments, sorted pixel by pixel: exact for every mesh");
     return;
   }
-  if (!commutative && request.sort == SortMethod::none) {
-    throw base::UsageError(
-        "mode " + mode +
-        " depends on the order of the cells: --sort none would draw a wrong "
-        "picture; use --sort mpvo, or a mode that needs no order (emission, mip, ...)");
-  }
+  if (!commutative && request.sort == SortMethod::none) throw_unsorted(scene);
   plan.sort = request.sort.value_or(commutative ? SortMethod::none : SortMethod::mpvo);
   if (plan.sort == SortMethod::none) {
     plan.reasons.push_back("order: none, " + why_commutative(scene));
@@ -101,110 +102,12 @@ void plan_order(const Scene& scene, const Request& request, Plan& plan) {
   }
   // The layouts of 12 vertices would have to hold what the lists need in every frame.
   plan.fragments_in_cycles = !request.sort && !has_faces12(plan.gl.layout);
-  const char* guarantee = plan.sort == SortMethod::centroid ? "approximate"
-                          : plan.sort == SortMethod::power  ? "exact"
-                          : plan.fragments_in_cycles
-                              ? "exact; fragments where cells hide each other in a ring"
-                              : "exact unless cells hide each other in a ring";
   plan.reasons.push_back(fmt::format(
-      "order: {}, {}; mode {} {}", to_string(plan.sort), guarantee, mode,
+      "order: {}, {}; mode {} {}", to_string(plan.sort),
+      plan.fragments_in_cycles ? "exact; fragments where cells hide each other in a ring"
+                               : guarantee(plan.sort),
+      to_string(scene.mode),
       commutative ? "does not need it, it was asked for" : "blends cells back to front"));
-}
-
-void plan_linear(const Scene& scene, const Request& request, Plan& plan) {
-  if (scene.mode == Mode::iso || scene.mode == Mode::mip) {
-    throw base::UsageError("--integrator linear is for the modes full, emission and absorption");
-  }
-  if (request.table_n != 0) throw base::UsageError("--integrator linear has no table");
-  plan.reasons.emplace_back(
-      "integrator: linear, from the ends of a segment alone: misses what lies between");
-}
-
-void plan_psi(const Scene& scene, const Request& request, Plan& plan) {
-  if (scene.mode != Mode::full) throw base::UsageError("--integrator psi is for mode full");
-  plan.table_n = request.table_n != 0 ? request.table_n : kTable2dSize;
-  if (plan.table_n < 2 || plan.table_n > kLargestTable2d || request.table_m != 0) {
-    throw base::UsageError(
-        fmt::format("--integrator psi has a table of N x N, N from 2 to {}", kLargestTable2d));
-  }
-  plan.reasons.push_back(fmt::format(
-      "integrator: psi, a table of {0} x {0} optical depths for every transfer function",
-      plan.table_n));
-}
-
-void plan_slab_table(const Scene& scene, const Request& request, Plan& plan) {
-  if (plan.integrator != Integrator::table2d || scene.mode != Mode::full ||
-      plan.slices.classify != Classify::integrated) {
-    throw base::UsageError(
-        "slices have --integrator table2d for --mode full and --classify integrated; else leave "
-        "out --integrator");
-  }
-  plan.table_n = request.table_n != 0 ? request.table_n : kTable2dSize;
-  if (plan.table_n < 2 || plan.table_n > kLargestTable2d || request.table_m != 0) {
-    throw base::UsageError(
-        fmt::format("slices have a table of N values, N from 2 to {}", kLargestTable2d));
-  }
-  plan.reasons.push_back(fmt::format(
-      "integrator: table of {0} x {0} values, of slabs of one length; that of others is corrected",
-      plan.table_n));
-}
-
-void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
-  if (!needs_integral(scene)) {
-    if (request.integrator && *request.integrator != Integrator::exact) {
-      throw base::UsageError(
-          fmt::format("mode {} integrates no transfer function: --integrator {} has nothing to do",
-                      to_string(scene.mode), to_string(*request.integrator)));
-    }
-    plan.reasons.push_back("integrator: none needed for mode " + to_string(scene.mode));
-    return;
-  }
-  plan.integrator = request.integrator.value_or(Integrator::exact);
-  if (plan.integrator == Integrator::exact) {
-    if (request.table_n != 0)
-      throw base::UsageError("--table needs --integrator table2d or table3d");
-    plan.reasons.emplace_back("integrator: exact per segment, no table");
-    return;
-  }
-  if (plan.projector == Projector::slices) {
-    plan_slab_table(scene, request, plan);
-    return;
-  }
-  if (plan.projector != Projector::gl) {
-    throw base::UsageError(
-        fmt::format("the {} projector integrates exactly; tables need --projector gl",
-                    to_string(plan.projector)));
-  }
-  if (scene.field.min == scene.field.max && scene.mode != Mode::iso) {
-    plan.integrator = Integrator::exact;
-    plan.reasons.emplace_back("integrator: exact, no table: the field is constant");
-    return;
-  }
-  if (plan.integrator == Integrator::linear) {
-    plan_linear(scene, request, plan);
-    return;
-  }
-  if (plan.integrator == Integrator::psi) {
-    plan_psi(scene, request, plan);
-    return;
-  }
-  const bool wants_3d = scene.mode == Mode::full;
-  if (wants_3d != (plan.integrator == Integrator::table3d)) {
-    throw base::UsageError(fmt::format(
-        "mode {} has a {} table: use --integrator {}", to_string(scene.mode),
-        wants_3d ? "three-dimensional" : "two-dimensional", wants_3d ? "table3d" : "table2d"));
-  }
-  plan.table_n = request.table_n != 0 ? request.table_n : (wants_3d ? kTable3dSize : kTable2dSize);
-  if (wants_3d) plan.table_m = request.table_m != 0 ? request.table_m : kTable3dLengths;
-  const int largest = wants_3d ? kLargestTable3d : kLargestTable2d;
-  if (plan.table_n < 2 || plan.table_n > largest ||
-      (wants_3d && (plan.table_m < 2 || plan.table_m > largest))) {
-    throw base::UsageError(fmt::format("--table sizes must lie between 2 and {} here", largest));
-  }
-  plan.reasons.push_back(wants_3d
-                             ? fmt::format("integrator: table of {0} x {0} values x {1} lengths",
-                                           plan.table_n, plan.table_m)
-                             : fmt::format("integrator: table of {0} x {0} values", plan.table_n));
 }
 
 /// That the trilinear field of a grid can be drawn.
@@ -231,12 +134,9 @@ void check_grid(const Scene& scene, Projector projector) {
 
 /// Whether something is asked for that only the gl projector has.
 bool needs_gl(const Scene& scene, const Request& request) {
-  const bool blends = scene.mode == Mode::full || scene.mode == Mode::iso;
-  const bool sorts_cells = request.sort == SortMethod::centroid ||
-                           (request.sort == SortMethod::none && blends && !is_commutative(scene));
-  const bool approximates = request.integrator.value_or(Integrator::exact) != Integrator::exact;
-  return request.context.has_value() || is_any_set(request.gl) || sorts_cells || approximates ||
-         request.table_n != 0 || request.light_map != 0 || scene.depth_cue.has_value();
+  const bool tabled_surfaces = scene.mode == Mode::iso && request.integrator == Integrator::table2d;
+  return request.context.has_value() || is_any_set(request.gl) || tabled_surfaces ||
+         request.light_map != 0 || scene.depth_cue.has_value();
 }
 
 void check_depth_cue(const Scene& scene, Plan& plan) {

@@ -67,6 +67,11 @@ struct Plan {
 /// is asked for).
 [[nodiscard]] Plan plan(const Scene& scene, const Request& request);
 
+/// Whether the cells are put in order, as `sort` does it, before they are drawn.
+[[nodiscard]] constexpr bool sorts_cells(const Plan& plan) {
+  return plan.sort != SortMethod::none && plan.sort != SortMethod::fragments;
+}
+
 /// Whether the projector draws the trilinear field of a grid, not cells.
 [[nodiscard]] constexpr bool draws_grid(Projector projector) {
   return projector == Projector::grid_reference || projector == Projector::slices;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -79,6 +80,7 @@ CellProjector::CellProjector(const Scene& scene, const Plan& plan)
   surfaces_ = surfaces(scene, cells_);
   if (scene.shading != Shading::none) set_up_light();
   if (scene.mode != Mode::thickness && scene.mode != Mode::iso) set_up_medium();
+  if (plan.table_n > 0) set_up_table();
 }
 
 void CellProjector::set_up_light() {
@@ -99,6 +101,39 @@ void CellProjector::set_up_medium() {
               clock.milliseconds());
 }
 
+void CellProjector::set_up_table() {
+  const base::Stopwatch clock;
+  table_.emplace(scene_, plan_, cells_.scale, radius_);
+  set_up_.tables_ms = clock.milliseconds();
+  set_up_.add(Effect::table, table_->bytes(), clock.milliseconds());
+}
+
+void CellProjector::order_cells(const Frame& frame, Stats& stats) {
+  constexpr auto kNotDrawn = std::numeric_limits<std::uint32_t>::max();
+  if (!sorts_cells(plan_)) return;
+  const base::Stopwatch clock;
+  // Sorted with the rest: what is not drawn still tells which of two others lies behind.
+  if (!sorter_) {
+    sorter_.emplace(plan_.sort, *scene_.mesh, scene_.drawable.cells);
+    drawn_of_cell_.assign(scene_.mesh->cells.size(), kNotDrawn);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      drawn_of_cell_[cells_.numbers[i]] = static_cast<std::uint32_t>(i);
+    }
+  }
+  const sort::Order& order = sorter_->sort(frame.view());
+  order_.clear();
+  order_.reserve(cells_.size());
+  for (auto cell = order.cells.rbegin(); cell != order.cells.rend(); ++cell) {
+    if (drawn_of_cell_[*cell] != kNotDrawn) order_.push_back(drawn_of_cell_[*cell]);
+  }
+  stats.sort_method = order.method;
+  stats.sort_exact = order.exact;
+  stats.cycles += order.cycles;
+  stats.sort_ms += clock.milliseconds();
+  stats.add(Effect::order, bytes_of(order.cells) + bytes_of(order_) + bytes_of(drawn_of_cell_),
+            clock.milliseconds());
+}
+
 Picture CellProjector::picture(const Frame& frame, const Projection& projection) const {
   Picture picture;
   picture.mode = scene_.mode;
@@ -113,6 +148,9 @@ Picture CellProjector::picture(const Frame& frame, const Projection& projection)
     }
     picture.nearest_only = scene_.mode == Mode::iso;
   }
+  picture.cells_in_order = sorts_cells(plan_);
+  picture.integrator = plan_.integrator;
+  picture.table = table_ ? &*table_ : nullptr;
   picture.cells = &cells_;
   picture.points = &points_;
   picture.projection = &projection;
@@ -129,12 +167,16 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
   const base::Stopwatch clock;
   for (const auto& [effect, work] : set_up_.work) stats.add(effect, work.bytes, work.ms);
   set_up_.work.clear();
+  stats.tables_ms += std::exchange(set_up_.tables_ms, 0);
   const Projection projection(frame, radius_, middle_);
   Picture shared = picture(frame, projection);
   points_.project(*scene_.mesh, cells_, frame, projection);
-  bins_.assign(cells_, points_, frame.width(), frame.height(), shared.tile_size);
+  const double projected = clock.milliseconds();
+  order_cells(frame, stats);
+  const base::Stopwatch binning;
+  bins_.assign(cells_, points_, frame.width(), frame.height(), shared.tile_size, order_);
   stats.add(Effect::cells, bytes_of(points_.exact) + bytes_of(points_.screen) + bins_.bytes(),
-            clock.milliseconds());
+            projected + binning.milliseconds());
   const std::vector<ViewedLight> lights =
       lighting_ ? lighting_->view(frame, projection) : std::vector<ViewedLight>{};
   shared.lights = lights;
@@ -186,7 +228,7 @@ Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
           keep_cells_in(ends.wanted, cells_, cells, worker.kept);
           cells = worker.kept;
         }
-        if (blends) {
+        if (blends && !shared.cells_in_order) {
           const base::Stopwatch ordering;
           cells = worker.order.front_to_back(cells, cells_, points_, region);
           worker.order_ms += ordering.milliseconds();
@@ -202,7 +244,7 @@ Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
     if (shared.projection->perspective) stats.add(Effect::rays, worker.buffers.ray_bytes());
     if (!scene_.clip.empty()) stats.add(Effect::clipping, worker.buffers.clip_bytes());
   }
-  if (blends) {
+  if (blends && !shared.cells_in_order) {
     stats.add(Effect::order, 0, order_ms);
     stats.sort_method = to_string(plan_.sort);
   }

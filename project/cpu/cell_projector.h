@@ -6,6 +6,7 @@
 #include "project/camera.h"
 #include "project/cpu/drawn_cells.h"
 #include "project/cpu/lighting.h"
+#include "project/cpu/lookup_table.h"
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
 #include "project/cpu/tile_bins.h"
@@ -14,6 +15,7 @@
 #include "project/image.h"
 #include "project/plan.h"
 #include "project/stats.h"
+#include "sort/cell_sorter.h"
 
 namespace tetraglass::project::cpu {
 
@@ -37,6 +39,9 @@ class CellProjector {
  private:
   void set_up_light();
   void set_up_medium();
+  void set_up_table();
+  /// Puts the drawn cells in the plan's order for one view, the nearest first; none without one.
+  void order_cells(const Frame& frame, Stats& stats);
   [[nodiscard]] Picture picture(const Frame& frame, const Projection& projection) const;
   /// Draws what is binned.
   [[nodiscard]] Image draw_tiles(const Picture& shared, Stats& stats);
@@ -47,10 +52,14 @@ class CellProjector {
   double radius_ = 1;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::optional<Medium> medium_;
+  std::optional<LookupTable> table_;
   std::vector<IntervalRange> intervals_;
   std::vector<Surface> surfaces_;
   std::optional<Lighting> lighting_;
   Stats set_up_;  // what all views have in common took, until it is told
+  std::optional<sort::CellSorter> sorter_;
+  std::vector<std::uint32_t> drawn_of_cell_;  // where the cells are sorted
+  std::vector<std::uint32_t> order_;          // drawn cells
   ViewPoints points_;
   TileBins bins_;
 };

@@ -63,11 +63,12 @@ class FrontToBack {
   BlockSums<4> sums_;  // red, green, blue, transmittance
 };
 
-/// A delay line per block: the last `window` fragments, in the order of their keys. Each new
-/// fragment finds its place among them; when the line is full its nearest fragment is composited. A
-/// fragment that comes when one behind it has already been composited is told (`is_violated`),
-/// never lost silently: the block is then to be drawn again with a wider window. A window of as
-/// many fragments as come is always wide enough.
+/// A delay line per block: the last `window` fragments, in the order of their keys (without a
+/// window fragments are composited as they come, whatever their keys). Each new fragment finds its
+/// place among them; when the line is full its nearest fragment is composited. A fragment that
+/// comes when one behind it has already been composited is told (`is_violated`), never lost
+/// silently: the block is then to be drawn again with a wider window. A window of as many fragments
+/// as come is always wide enough.
 class FragmentLines {
  public:
   static constexpr std::size_t kRecord = Fragment::kChannels * kLanes;
@@ -82,8 +83,8 @@ class FragmentLines {
   };
 
   /// `records`: window * kRecord floats per line. `last_keys`: kLanes floats per line. `window`: a
-  /// power of two. `opaque`: a line whose rays all let through less than this is not composited any
-  /// further; 0: never.
+  /// power of two, or 0. `opaque`: a line whose rays all let through less than this is not
+  /// composited any further; 0: never.
   FragmentLines(FrontToBack& image, float* records, float* last_keys, Line* lines,
                 std::size_t window, float opaque)
       : image_(image),
@@ -95,13 +96,20 @@ class FragmentLines {
 
   HWY_INLINE void clear(std::size_t line) {
     lines_[line] = {};
+    if (window_ == 0) return;
     hn::Store(set(std::numeric_limits<float>::lowest()), FloatTag(), last_keys_ + line * kLanes);
   }
 
   [[nodiscard]] const Line& line(std::size_t line) const { return lines_[line]; }
+  [[nodiscard]] bool in_order() const { return window_ == 0; }
 
   HWY_INLINE void insert(std::size_t line, std::size_t block, Lanes covered, Fragment fragment) {
     Line& state = lines_[line];
+    if (window_ == 0) {
+      state.opaque = is_opaque(image_.add(block, fragment));
+      state.opaque_key = std::numeric_limits<float>::lowest();
+      return;
+    }
     if (state.count == window_ && !state.opaque) composite_first(line, block);
     if (HWY_UNLIKELY(state.opaque)) {
       const Float last = hn::Load(FloatTag(), last_keys_ + line * kLanes);
@@ -151,6 +159,10 @@ class FragmentLines {
     if (!hn::AllFalse(FloatTag(), lanes)) state.violated = true;
   }
 
+  [[nodiscard]] HWY_INLINE bool is_opaque(Float transmittance) const {
+    return hn::AllTrue(FloatTag(), hn::Lt(transmittance, set(opaque_)));
+  }
+
   HWY_INLINE void composite_first(std::size_t line, std::size_t block) {
     Line& state = lines_[line];
     const float* first = record(line, 0);
@@ -162,7 +174,7 @@ class FragmentLines {
     hn::Store(fragment.key(), FloatTag(), last_keys_ + line * kLanes);
     state.head = static_cast<std::uint32_t>((state.head + 1) & (window_ - 1));
     --state.count;
-    if (hn::AllTrue(FloatTag(), hn::Lt(left, set(opaque_)))) {
+    if (is_opaque(left)) {
       state.opaque = true;
       state.opaque_key = hn::GetLane(hn::MaxOfLanes(FloatTag(), fragment.key()));
     }

@@ -90,20 +90,31 @@ class IsoShader {
   [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const { return blocks_.wants(block); }
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& s) {
-    for (const Surface& surface : surfaces_) {
-      const Crossing met = crossing(surface, covered, s);
-      if (hn::AllFalse(FloatTag(), met.crossed)) continue;
-      const Vector3 color = colors_.at(surface, block, met.depth);
-      const Float opacity = hn::IfThenElseZero(met.crossed, set(surface.opacity));
-      Fragment f;
-      f.channel[0] = hn::Add(met.depth, met.depth);
-      for (std::size_t c = 0; c < 3; ++c) f.channel[1 + c] = hn::Mul(opacity, color[c]);
-      f.channel[4] = opacity;
-      blocks_.insert(block, met.crossed, f);
+    if (!blocks_.in_order()) {
+      for (const Surface& surface : surfaces_) meet(surface, block, covered, s);
+      return;
     }
+    // The nearest first: of rising fields the lowest surface, of falling ones the highest.
+    const Lanes rising = hn::And(covered, hn::Lt(s.front, s.back));
+    const Lanes falling = hn::AndNot(rising, covered);
+    for (const Surface& surface : surfaces_) meet(surface, block, rising, s);
+    for (std::size_t i = surfaces_.size(); i-- > 0;) meet(surfaces_[i], block, falling, s);
   }
 
  private:
+  HWY_INLINE void meet(const Surface& surface, std::size_t block, Lanes covered,
+                       const BlockSegments& s) {
+    const Crossing met = crossing(surface, covered, s);
+    if (hn::AllFalse(FloatTag(), met.crossed)) return;
+    const Vector3 color = colors_.at(surface, block, met.depth);
+    const Float opacity = hn::IfThenElseZero(met.crossed, set(surface.opacity));
+    Fragment f;
+    f.channel[0] = hn::Add(met.depth, met.depth);
+    for (std::size_t c = 0; c < 3; ++c) f.channel[1 + c] = hn::Mul(opacity, color[c]);
+    f.channel[4] = opacity;
+    blocks_.insert(block, met.crossed, f);
+  }
+
   std::span<const Surface> surfaces_;
   SurfaceColors colors_;
   OrderedBlocks& blocks_;

@@ -17,6 +17,7 @@
 
 #include "project/cpu/fragment_lines-inl.h"
 #include "project/cpu/light-inl.h"
+#include "project/cpu/table_shaders-inl.h"
 #include "project/cpu/tile_shaders-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,6 +48,9 @@ class OrderedBlocks {
     return HWY_LIKELY(!state.opaque) || least_key() < state.opaque_key;
   }
 
+  /// Fragments have to come in order.
+  [[nodiscard]] HWY_INLINE bool in_order() const { return lines_.in_order(); }
+
   HWY_INLINE void insert(std::size_t block, Lanes covered, const Fragment& fragment) {
     lines_.insert(lines_of_blocks_[block], block, covered, fragment);
   }
@@ -68,12 +72,44 @@ class OrderedBlocks {
   std::uint32_t cell_ = 0;  // in work
 };
 
+/// Pieces with linear extinction and color, integrated in closed form.
+class ExactPieces {
+ public:
+  explicit ExactPieces(const Picture&) {}
+
+  [[nodiscard]] HWY_INLINE SegmentLight<Float> light(Float a, Float b) const {
+    return segment_light(FloatTag(), a, b);
+  }
+};
+
+/// ... by the table of their mean transmittances (preint/psi_table.h).
+class PsiPieces {
+ public:
+  explicit PsiPieces(const Picture& picture) : lookup_(*picture.table) {}
+
+  [[nodiscard]] HWY_INLINE SegmentLight<Float> light(Float a, Float b) const {
+    const FloatTag d;
+    const auto coordinate = [&](Float k) HWY_ATTR { return hn::Div(k, hn::Add(k, set(1))); };
+    const Float opacity = preint::HWY_NAMESPACE::absorbed(d, hn::Mul(set(0.5F), hn::Add(a, b)));
+    const Float transmittance = hn::Sub(set(1), opacity);
+    // The mean lies between the ends, however the table was rounded.
+    const Float psi =
+        hn::Min(hn::Max(lookup_.at(coordinate(a), coordinate(b), 0), transmittance), set(1));
+    // color_front (1 - psi) + color_back (psi - transmittance)
+    return {opacity, hn::Sub(hn::Add(psi, psi), hn::Add(set(1), transmittance)), transmittance};
+  }
+
+ private:
+  TableLookup lookup_;
+};
+
 /// int kappa c exp(-tau) dl: the segments of each cell, shaded, go to the delay line of their
 /// block.
+template <class Pieces>
 class FullShader : public MediumShader {
  public:
   FullShader(const Picture& picture, int, int, OrderedBlocks& blocks)
-      : MediumShader(picture), blocks_(blocks) {}
+      : MediumShader(picture), pieces_(picture), blocks_(blocks) {}
 
   HWY_INLINE bool begin(std::uint32_t cell) {
     blocks_.begin(cell);
@@ -108,11 +144,10 @@ class FullShader : public MediumShader {
     Float opacity;
   };
 
-  static HWY_INLINE Shaded shade(const MediumInterval& interval, const IntervalPart& part) {
-    const FloatTag d;
+  HWY_INLINE Shaded shade(const MediumInterval& interval, const IntervalPart& part) const {
     const Float a = hn::Mul(part.length, extinction(interval, part.front));
     const Float b = hn::Mul(part.length, extinction(interval, part.back));
-    const SegmentLight<Float> light = segment_light(d, a, b);
+    const SegmentLight<Float> light = pieces_.light(a, b);
     // The color at both ends is that of the interval's low end and a part of the rise.
     const Float middle = hn::Mul(set(0.5F), hn::Add(part.front, part.back));
     const Float half_crossed = hn::Mul(set(0.5F), hn::Sub(part.back, part.front));
@@ -146,6 +181,37 @@ class FullShader : public MediumShader {
     f.channel[4] = hn::MulAdd(of_part, part.opacity, hn::Mul(of_sum, f.channel[4]));
   }
 
+  Pieces pieces_;
+  OrderedBlocks& blocks_;
+};
+
+/// The same by a table of whole segments, or from the medium at their ends alone.
+class ApproximateFullShader : public ApproximateMedium {
+ public:
+  ApproximateFullShader(const Picture& picture, int, int, OrderedBlocks& blocks)
+      : ApproximateMedium(picture), blocks_(blocks) {}
+
+  HWY_INLINE bool begin(std::uint32_t cell) {
+    blocks_.begin(cell);
+    return ApproximateMedium::begin(cell);
+  }
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const { return blocks_.wants(block); }
+
+  HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
+    const BlockSegments s = with_cell_value(segments);
+    const Float through = length(s, covered);
+    std::array<Float, 4> light = mean(s, through, covered);
+    if (!is_tabled()) {
+      light[3] = preint::HWY_NAMESPACE::absorbed(FloatTag(), hn::Mul(through, light[3]));
+      for (std::size_t c = 0; c < 3; ++c) light[c] = hn::Mul(light[c], light[3]);
+    }
+    Fragment f;
+    f.channel[0] = hn::Add(s.near, s.far);
+    for (std::size_t c = 0; c < 4; ++c) f.channel[1 + c] = hn::IfThenElseZero(covered, light[c]);
+    blocks_.insert(block, covered, f);
+  }
+
+ private:
   OrderedBlocks& blocks_;
 };
 

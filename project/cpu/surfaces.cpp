@@ -1,5 +1,7 @@
 #include "project/cpu/surfaces.h"
 
+#include <algorithm>
+
 namespace tetraglass::project::cpu {
 
 std::vector<Surface> surfaces(const Scene& scene, const DrawnCells& cells) {
@@ -12,6 +14,8 @@ std::vector<Surface> surfaces(const Scene& scene, const DrawnCells& cells) {
                       {color[0], color[1], color[2]},
                       scene.transfer_function.material_at(surface.value)});
   }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Surface& a, const Surface& b) { return a.value < b.value; });
   return result;
 }
 

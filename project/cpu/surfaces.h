@@ -17,6 +17,7 @@ struct Surface {
   preint::Material material;
 };
 
+/// Those of the scene, the lowest first.
 [[nodiscard]] std::vector<Surface> surfaces(const Scene& scene, const DrawnCells& cells);
 
 }  // namespace tetraglass::project::cpu

@@ -76,7 +76,7 @@ PixelBounds pixel_bounds(const mesh::Cell& cell, const ViewPoints& points, int w
 }
 
 void TileBins::assign(DrawnCells& cells, const ViewPoints& points, int width, int height,
-                      int tile_size) {
+                      int tile_size, std::span<const std::uint32_t> order) {
   tiles_x_ = static_cast<std::size_t>((width + tile_size - 1) / tile_size);
   tiles_y_ = static_cast<std::size_t>((height + tile_size - 1) / tile_size);
   const auto size = static_cast<std::size_t>(tile_size);
@@ -84,14 +84,18 @@ void TileBins::assign(DrawnCells& cells, const ViewPoints& points, int width, in
   // threads. Not too many either: each has a count per tile.
   constexpr std::size_t kMostCounts = std::size_t{1} << 22;
   const std::size_t most = std::clamp<std::size_t>(kMostCounts / tiles(), 1, 64);
-  const std::size_t chunks = std::clamp<std::size_t>(cells.size() / 4096, 1, most);
-  const auto chunk_begin = [&](std::size_t chunk) { return cells.size() * chunk / chunks; };
+  const std::size_t binned = order.empty() ? cells.size() : order.size();
+  const std::size_t chunks = std::clamp<std::size_t>(binned / 4096, 1, most);
+  const auto chunk_begin = [&](std::size_t chunk) { return binned * chunk / chunks; };
+  const auto cell_at = [&](std::size_t i) {
+    return order.empty() ? static_cast<std::uint32_t>(i) : order[i];
+  };
   counts_.assign(chunks * tiles(), 0);
   base::parallel_ranges(chunks, 1, [&](std::size_t first, std::size_t end) {
     for (std::size_t chunk = first; chunk < end; ++chunk) {
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
-        DrawnCell& cell = cells.cells[i];
+        DrawnCell& cell = cells.cells[cell_at(i)];
         cell.bounds = pixel_bounds(cell.vertices, points, width, height);
         cell.distance = 0;
         for (const std::uint32_t v : cell.vertices) {
@@ -119,9 +123,10 @@ void TileBins::assign(DrawnCells& cells, const ViewPoints& points, int width, in
     for (std::size_t chunk = first; chunk < end; ++chunk) {
       std::uint32_t* counts = counts_.data() + chunk * tiles();
       for (std::size_t i = chunk_begin(chunk); i < chunk_begin(chunk + 1); ++i) {
-        for_tiles(cells.cells[i].bounds, size, [&](std::size_t x, std::size_t y) {
+        const std::uint32_t cell = cell_at(i);
+        for_tiles(cells.cells[cell].bounds, size, [&](std::size_t x, std::size_t y) {
           const std::size_t tile = y * tiles_x_ + x;
-          entries_[starts_[tile] + counts[tile]++] = static_cast<std::uint32_t>(i);
+          entries_[starts_[tile] + counts[tile]++] = cell;
         });
       }
     }

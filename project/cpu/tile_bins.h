@@ -20,9 +20,10 @@ namespace tetraglass::project::cpu {
 class TileBins {
  public:
   /// Bins all cells, in parallel, and sets their bounds and distances; each tile gets its cells in
-  /// their order, whatever the number of threads. Cells that cover no pixel centre are left out.
-  /// Cost: linear in cells and entries.
-  void assign(DrawnCells& cells, const ViewPoints& points, int width, int height, int tile_size);
+  /// the given order, or, without one, in their own, whatever the number of threads. Cells that
+  /// cover no pixel centre are left out. Cost: linear in cells and entries.
+  void assign(DrawnCells& cells, const ViewPoints& points, int width, int height, int tile_size,
+              std::span<const std::uint32_t> order = {});
 
   [[nodiscard]] std::size_t tiles() const { return tiles_x_ * tiles_y_; }
   [[nodiscard]] std::size_t bytes() const {

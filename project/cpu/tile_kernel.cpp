@@ -16,6 +16,7 @@
 #include "project/cpu/iso_shader-inl.h"
 #include "project/cpu/lit_shader-inl.h"
 #include "project/cpu/ordered_shader-inl.h"
+#include "project/cpu/table_shaders-inl.h"
 #include "project/cpu/tile_raster-inl.h"
 #include "project/cpu/tile_shaders-inl.h"
 
@@ -164,7 +165,7 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   constexpr std::size_t kWindow = 16;       // enough for nearly all blocks of meshes without cycles
   constexpr std::size_t kWider = 4;         // times, where it was not
   constexpr std::size_t kMemory = 1 << 22;  // floats of all delay lines of one pass
-  if (!buffers.last_keys) {
+  if (!picture.cells_in_order && !buffers.last_keys) {
     buffers.last_keys = hwy::AllocateAligned<float>(TileBuffers::Contents::kPixels);
   }
   FrontToBack image(buffers.accumulators.get());
@@ -172,8 +173,8 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   std::vector<std::uint16_t> blocks(side * side / kLanes);
   std::iota(blocks.begin(), blocks.end(), std::uint16_t{0});
   TileStats stats;
-  blocks =
-      blend_blocks<Shader>(picture, x, y, cells, blocks, kWindow, buffers, image, stats.fragments);
+  blocks = blend_blocks<Shader>(picture, x, y, cells, blocks, picture.cells_in_order ? 0 : kWindow,
+                                buffers, image, stats.fragments);
   stats.redone = blocks.size();
   for (std::size_t window = kWindow * kWider; !blocks.empty(); window *= kWider) {
     const std::vector<std::uint32_t> covering = cells_over(picture, x, y, cells, blocks);
@@ -197,7 +198,15 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
 TileStats draw_medium(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                       TileBuffers::Contents& buffers) {
   if (picture.single_color) return shade_tile<SingleColorShader>(picture, x, y, cells, buffers);
-  if (picture.lighting == nullptr) return blend_tile<FullShader>(picture, x, y, cells, buffers);
+  if (picture.integrator == Integrator::psi) {
+    return blend_tile<FullShader<PsiPieces>>(picture, x, y, cells, buffers);
+  }
+  if (picture.integrator != Integrator::exact) {
+    return blend_tile<ApproximateFullShader>(picture, x, y, cells, buffers);
+  }
+  if (picture.lighting == nullptr) {
+    return blend_tile<FullShader<ExactPieces>>(picture, x, y, cells, buffers);
+  }
   switch (picture.lighting->shading) {
     case Shading::single:
       return blend_tile<LitOnceShader<Shading::single>>(picture, x, y, cells, buffers);
@@ -229,17 +238,22 @@ TileStats tile(const Picture& picture, int x, int y, std::span<const std::uint32
     }
     fill_clipped(picture, x, y, buffers.clipped.get());
   }
+  const bool exact = picture.integrator == Integrator::exact;
   switch (picture.mode) {
     case Mode::thickness:
       return shade_tile<ThicknessShader>(picture, x, y, cells, buffers);
     case Mode::emission:
-      return shade_tile<EmissionShader>(picture, x, y, cells, buffers);
+      return exact ? shade_tile<EmissionShader>(picture, x, y, cells, buffers)
+                   : shade_tile<ApproximateEmissionShader>(picture, x, y, cells, buffers);
     case Mode::absorption:
-      return shade_tile<AbsorptionShader>(picture, x, y, cells, buffers);
+      return exact ? shade_tile<AbsorptionShader>(picture, x, y, cells, buffers)
+                   : shade_tile<ApproximateAbsorptionShader>(picture, x, y, cells, buffers);
     case Mode::mip:
-      return picture.mip_of == MipOf::field
-                 ? shade_tile<FieldMaximumShader>(picture, x, y, cells, buffers)
-                 : shade_tile<ColorMaximumShader>(picture, x, y, cells, buffers);
+      if (picture.mip_of == MipOf::field) {
+        return shade_tile<FieldMaximumShader>(picture, x, y, cells, buffers);
+      }
+      return exact ? shade_tile<ColorMaximumShader>(picture, x, y, cells, buffers)
+                   : shade_tile<TabledMaximumShader>(picture, x, y, cells, buffers);
     case Mode::full:
       return draw_medium(picture, x, y, cells, buffers);
     case Mode::iso:

@@ -8,6 +8,7 @@
 
 #include "project/cpu/drawn_cells.h"
 #include "project/cpu/lighting.h"
+#include "project/cpu/lookup_table.h"
 #include "project/cpu/medium.h"
 #include "project/cpu/surfaces.h"
 #include "project/cpu/view_points.h"
@@ -30,6 +31,9 @@ struct Picture {
   float opaque = 0;
   std::optional<std::array<float, 3>> single_color;  ///< of all light (mode full)
   bool nearest_only = false;                         ///< all surfaces are opaque (mode iso)
+  bool cells_in_order = false;  ///< modes that blend: what comes later lies behind
+  Integrator integrator = Integrator::exact;
+  const LookupTable* table = nullptr;  ///< null where the integrator has none
   const DrawnCells* cells = nullptr;
   const ViewPoints* points = nullptr;
   const Projection* projection = nullptr;
@@ -77,7 +81,8 @@ struct TileStats {
 ///
 /// In modes that blend the cells come roughly front to back. The segments of each pixel are then
 /// put in exact order: in a window of 16 segments; blocks of pixels where that was not enough are
-/// drawn again, with wider windows, until it is.
+/// drawn again, with wider windows, until it is. Cells in an order of their own are blended as they
+/// come.
 ///
 /// Tiles do not touch each other's pixels and may be drawn at once.
 ///

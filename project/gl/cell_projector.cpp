@@ -8,37 +8,14 @@
 #include "base/errors.h"
 #include "base/stopwatch.h"
 #include "preint/psi_table.h"
-#include "preint/table.h"
 #include "project/gl/functions.inl"
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
-#include "project/longest_edge.h"
+#include "project/integral_tables.h"
 #include "project/shown_cells.h"
 
 namespace tetraglass::project::gl {
-namespace {
-
-// The same medium per unit of normalized length, in which the shaders measure.
-preint::TransferFunction normalized(const preint::TransferFunction& tf, double radius) {
-  std::vector<preint::ControlPoint> points = tf.points();
-  for (preint::ControlPoint& point : points) {
-    point.extinction = std::min(point.extinction * radius, MediumBuffers::kMostExtinction);
-  }
-  return preint::TransferFunction(std::move(points));
-}
-
-Table table_2d(const Context& context, const Scene& scene, const Plan& plan, double low,
-               double high, const preint::TransferFunction& tf) {
-  const bool iso = scene.mode == Mode::iso;
-  const preint::Table2D table =
-      iso ? iso_table(scene.isosurfaces, low, high, plan.table_n)
-          : (scene.mode == Mode::mip ? mip_table(tf, low, high, plan.table_n)
-                                     : emission_table(tf, low, high, plan.table_n));
-  return {context, Texel::rgba32f, {table.n, table.n, 0}, table.rgba, !iso};
-}
-
-}  // namespace
 
 CellProjector::CellProjector(const Context& context, const Scene& scene, const Plan& plan,
                              Stats& stats, int largest_tile, std::size_t most_fragments)
@@ -76,18 +53,16 @@ void CellProjector::make_tables(Stats& stats) {
     stats.add(Effect::table, sizeof(float) * table.psi.size(), clock.milliseconds());
     return;
   }
-  const double low = normalization_.field_value(-1);
-  const double high = normalization_.field_value(1);
   const double radius = normalization_.radius;
-  const preint::TransferFunction tf = normalized(scene_.transfer_function, radius);
   const auto n = static_cast<std::size_t>(plan_.table_n);
   std::size_t texels = n * n;
   if (plan_.integrator == Integrator::table2d) {
-    table_.emplace(table_2d(context_, scene_, plan_, low, high, tf));
+    const preint::Table2D table = integral_table_2d(scene_, plan_, normalization_.values, radius);
+    table_.emplace(context_, Texel::rgba32f, std::array<int, 3>{table.n, table.n, 0}, table.rgba,
+                   scene_.mode != Mode::iso);
   } else {
     texels *= static_cast<std::size_t>(plan_.table_m);
-    const preint::Table3D table =
-        full_table(tf, low, high, longest_edge(scene_) / radius, plan_.table_n, plan_.table_m);
+    const preint::Table3D table = integral_table_3d(scene_, plan_, normalization_.values, radius);
     table_length_ = static_cast<float>(table.max_length);
     table_.emplace(context_, Texel::rgba32f, std::array<int, 3>{table.n, table.n, table.m},
                    table.rgba, true);

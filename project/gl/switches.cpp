@@ -35,10 +35,6 @@ bool has_scalar_target(const Scene& scene) {
   return scene.mode == Mode::thickness || scene.mode == Mode::absorption || is_field_maximum(scene);
 }
 
-bool sorts_cells(const Plan& plan) {
-  return plan.sort != SortMethod::none && plan.sort != SortMethod::fragments;
-}
-
 bool reads_medium(const Scene& scene, const Plan& plan) {
   const bool tabulated =
       plan.integrator == Integrator::table2d || plan.integrator == Integrator::table3d;

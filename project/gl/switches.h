@@ -18,9 +18,6 @@ namespace tetraglass::project::gl {
 /// One number per pixel: length, optical depth or largest value.
 [[nodiscard]] bool has_scalar_target(const Scene& scene);
 
-/// Whether cells are drawn in an order of theirs (not: sorted pixel by pixel afterwards).
-[[nodiscard]] bool sorts_cells(const Plan& plan);
-
 /// Whether the fragment stage integrates the transfer function itself.
 [[nodiscard]] bool reads_medium(const Scene& scene, const Plan& plan);
 

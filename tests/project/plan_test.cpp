@@ -45,10 +45,13 @@ TEST_F(PlanTest, TheCpuDrawsWhatItCan) {
   EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
   request = {};
   request.sort = SortMethod::centroid;
-  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
+  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::cpu);
+  EXPECT_EQ(plan(scene(Mode::full), request).sort, SortMethod::centroid);
   request = {};
   request.integrator = Integrator::table3d;
-  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::gl);
+  EXPECT_EQ(plan(scene(Mode::full), request).projector, Projector::cpu);
+  request.integrator = Integrator::table2d;
+  EXPECT_EQ(plan(scene(Mode::iso), request).projector, Projector::gl);
 }
 
 TEST_F(PlanTest, RaysOfTheCpuEndWhereTheyAreOpaque) {
