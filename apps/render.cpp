@@ -288,13 +288,15 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
                   "auto | osmesa | egl (a GPU without a display), for --projector gl and slices")
       ->capture_default_str();
   app->add_option("--sort", a.sort,
-                  "auto | none | centroid | power | mpvo (gl) | fragments (pixel by pixel)")
+                  "auto | none | centroid | power | mpvo (of whole cells) | fragments (pixel by "
+                  "pixel)")
       ->capture_default_str();
   app->add_option(
       "--opaque-at", a.opaque_at,
       "Opacity above 0, to 1, at which rays end, for --projector cpu. Default: 0.99998");
   app->add_option("--integrator", a.integrator,
-                  "auto | exact (no table) | table2d (emission, absorption, mip, iso) | table3d "
+                  "auto | exact (no table) | table2d (emission, absorption, mip, iso of gl) | "
+                  "table3d "
                   "(full) | psi "
                   "(full) | linear (the ends of a segment only)")
       ->capture_default_str();

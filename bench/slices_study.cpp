@@ -17,7 +17,7 @@
 
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "bench/error_plot.h"
+#include "bench/log_plot.h"
 #include "bench/voxel_tetrahedra.h"
 #include "mesh/import.h"
 #include "project/compare.h"
@@ -342,7 +342,7 @@ void print_cells(const project::gl::Context& context, const std::string& plot_fi
       "## Slices against tetrahedra of the same grid, 400 x 400 pixels\n\n"
       "RMS error against the reference of the trilinear field; cells by the projector cpu.\n\n"
       "| points | drawn as | cells | ms | RMS error | MB |\n|---|---|---:|---:|---:|---:|\n");
-  bench::ErrorPlot plot;
+  bench::LogPlot plot("milliseconds a frame", "RMS error");
   for (const int n : {16, 32, 64}) {
     Data data;
     make_blobs(data, {n, n, n}, 400);
@@ -353,7 +353,7 @@ void print_cells(const project::gl::Context& context, const std::string& plot_fi
       const double rms = compare(drawn.image, exact).rms;
       fmt::print("| {0} x {0} x {0} | {1} | {2} | {3:.0f} | {4:.1e} | {5:.2f} |\n", n, name, cells,
                  drawn.ms, rms, double(bytes) / 1e6);
-      plot.add(name, n, rms, drawn.ms);
+      plot.add(name, drawn.ms, rms, std::to_string(n));
     };
     for (const double apart : {1.0, 0.5, 0.25}) {
       SlicesRequest request;

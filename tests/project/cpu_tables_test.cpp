@@ -1,5 +1,6 @@
 // The native projector with the tables of preint, and with no more than the ends of segments.
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct Case {
   int coarse = 16;
   double gain = 6;  ///< with four times the samples: of second order a sixteenth is left
 };
+
+void PrintTo(const Case& c, std::ostream* out) {  // NOLINT(readability-identifier-naming)
+  *out << c.name;
+}
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
   return info.param.name;

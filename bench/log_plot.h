@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,14 +14,17 @@
 
 namespace tetraglass::bench {
 
-/// Error against time, both logarithmic, as an SVG picture: one line for each way to draw, one
-/// point on it for each size.
-class ErrorPlot {
+/// One quantity against another, both positive, on logarithmic axes, as an SVG picture: a line for
+/// each way to draw, with points on it.
+class LogPlot {
  public:
-  /// `way` at a size took `ms` and was off by `error`; sizes ascending.
-  void add(const std::string& way, int size, double error, double ms) {
+  LogPlot(std::string x_title, std::string y_title)
+      : x_title_(std::move(x_title)), y_title_(std::move(y_title)) {}
+
+  /// A point of the line `way`, with a label or none; in the order of the line.
+  void add(const std::string& way, double x, double y, const std::string& label = "") {
     if (lines_.count(way) == 0) order_.push_back(way);
-    lines_[way].push_back({size, error, ms});
+    lines_[way].push_back({x, y, label});
   }
 
   void write(const std::string& file) const {
@@ -38,9 +42,9 @@ class ErrorPlot {
 
  private:
   struct Point {
-    int size;
-    double error;
-    double ms;
+    double x;
+    double y;
+    std::string label;
   };
   static constexpr int kWidth = 760;
   static constexpr int kHeight = 460;
@@ -61,14 +65,13 @@ class ErrorPlot {
     }
     return range;
   }
-  [[nodiscard]] double x(double ms) const {
-    const auto [low, high] = decades(&Point::ms);
-    return kLeft + (std::log10(ms) - low) / (high - low) * (kWidth - kLeft - kRight);
+  [[nodiscard]] double place_x(double x) const {
+    const auto [low, high] = decades(&Point::x);
+    return kLeft + (std::log10(x) - low) / (high - low) * (kWidth - kLeft - kRight);
   }
-  [[nodiscard]] double y(double error) const {
-    const auto [low, high] = decades(&Point::error);
-    return kHeight - kBottom -
-           (std::log10(error) - low) / (high - low) * (kHeight - kTop - kBottom);
+  [[nodiscard]] double place_y(double y) const {
+    const auto [low, high] = decades(&Point::y);
+    return kHeight - kBottom - (std::log10(y) - low) / (high - low) * (kHeight - kTop - kBottom);
   }
   [[nodiscard]] std::string axes() const {
     std::string svg;
@@ -81,20 +84,20 @@ class ErrorPlot {
       svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", at_x,
                          at_y, anchor, what);
     };
-    const auto [fast, slow] = decades(&Point::ms);
-    for (int power = fast; power <= slow; ++power) {
-      const double at = x(std::pow(10, power));
+    const auto [left, right] = decades(&Point::x);
+    for (int power = left; power <= right; ++power) {
+      const double at = place_x(std::pow(10, power));
       tick(at, kTop, at, kHeight - kBottom);
       text(at, kHeight - kBottom + 16, "middle", fmt::format("{:g}", std::pow(10, power)));
     }
-    const auto [right, wrong] = decades(&Point::error);
-    for (int power = right; power <= wrong; ++power) {
-      const double at = y(std::pow(10, power));
+    const auto [bottom, top] = decades(&Point::y);
+    for (int power = bottom; power <= top; ++power) {
+      const double at = place_y(std::pow(10, power));
       tick(kLeft, at, kWidth - kRight, at);
       text(kLeft - 6, at + 4, "end", fmt::format("1e{}", power));
     }
-    text(0.5 * (kLeft + kWidth - kRight), kHeight - 8, "middle", "milliseconds a frame");
-    text(kLeft, kTop - 3, "start", "RMS error");
+    text(0.5 * (kLeft + kWidth - kRight), kHeight - 8, "middle", x_title_);
+    text(kLeft, kTop - 3, "start", y_title_);
     return svg;
   }
   [[nodiscard]] std::string line(std::size_t i) const {
@@ -105,11 +108,12 @@ class ErrorPlot {
     std::string path;
     std::string svg;
     for (const Point& point : points) {
-      path += fmt::format("{:.1f},{:.1f} ", x(point.ms), y(point.error));
+      path += fmt::format("{:.1f},{:.1f} ", place_x(point.x), place_y(point.y));
       svg += fmt::format(
           "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"3\" fill=\"{2}\"/>\n<text x=\"{3:.1f}\" "
           "y=\"{4:.1f}\" fill=\"{2}\" font-size=\"10\">{5}</text>\n",
-          x(point.ms), y(point.error), color, x(point.ms) + 5, y(point.error) - 4, point.size);
+          place_x(point.x), place_y(point.y), color, place_x(point.x) + 5, place_y(point.y) - 4,
+          point.label);
     }
     svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\"/>\n", path, color);
     svg += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n", kWidth - kRight + 12,
@@ -117,6 +121,8 @@ class ErrorPlot {
     return svg;
   }
 
+  std::string x_title_;
+  std::string y_title_;
   std::vector<std::string> order_;
   std::map<std::string, std::vector<Point>> lines_;
 };
