@@ -111,7 +111,7 @@ Figure::Figure(const RenderArguments& arguments, const project::Scene& scene, in
       logarithmic_(arguments.logarithmic),
       scene_(scene),
       background_(make_background(arguments, scene.mode)),
-      box_(drawn_box(scene)),
+      box_(arguments.figure.axes ? drawn_box(scene) : mesh::Box()),
       width_(width),
       height_(height),
       scale_(std::min(width / 800.0, height / 600.0)),

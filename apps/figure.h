@@ -38,7 +38,7 @@ class Figure {
   bool logarithmic_;
   const project::Scene& scene_;
   project::Background background_;
-  mesh::Box box_;
+  mesh::Box box_;  // of axes
   int width_;
   int height_;
   double scale_;

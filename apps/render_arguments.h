@@ -55,6 +55,8 @@ struct RenderArguments : CameraArguments {
   std::string shading;
   std::string gradient;
   std::string lights;
+  /// In the place of what `lights` names.
+  std::optional<project::Lights> own_lights;
   std::string light_map;
   std::string modulate;
   std::string background;
@@ -97,6 +99,17 @@ void add_figure_options(CLI::App* app, FigureArguments& arguments);
 /// How it is drawn: the projector and what can be chosen of it.
 void add_method_options(CLI::App* app, RenderArguments& arguments);
 
+/// What a scene takes of its mesh for a field, however it is drawn.
+struct DrawnField {
+  mesh::ScalarField field;
+  mesh::Drawable drawable;
+  mesh::Box box;  ///< of the mesh
+};
+
+/// Depends on nothing of the arguments but the field and whether a grid is drawn. Throws InputError
+/// where there is no such field, or nothing to draw of it. Cost: passes over all cells.
+[[nodiscard]] DrawnField select_field(const RenderArguments& arguments, const mesh::TetMesh& mesh);
+
 /// The scene that the arguments ask for, of a mesh that outlives it. Throws UsageError for values
 /// that cannot be, InputError and ReadError where the mesh or the transfer function's file lack
 /// what is needed; warns on stderr of what will not be seen. Its size is that of the picture of
@@ -104,6 +117,11 @@ void add_method_options(CLI::App* app, RenderArguments& arguments);
 /// `values`: what the transfer function and the isosurfaces are made for, where it is not the field
 /// of the mesh (but that of all time steps).
 [[nodiscard]] project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                                        const mesh::ScalarField* values = nullptr);
+
+/// The same of what was selected of this mesh before.
+[[nodiscard]] project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                                        DrawnField drawn,
                                         const mesh::ScalarField* values = nullptr);
 
 /// The way of drawing that the arguments force. Throws UsageError.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "apps/figure.h"
+#include "apps/light_scene.h"
 #include "apps/mesh_input.h"
 #include "apps/options.h"
 #include "apps/orbit.h"
@@ -151,59 +152,6 @@ void refuse_iso_options(const RenderArguments& arguments) {
   }
 }
 
-/// What isosurfaces have: the layouts of weiler2002 have one gradient per cell.
-std::string default_shading(const RenderArguments& arguments, Mode mode) {
-  if (mode != Mode::iso) return "none";
-  return arguments.layout.rfind("faces12", 0) == 0 ? "flat" : "smooth";
-}
-
-/// Of a scene whose mode is known.
-void set_light(const RenderArguments& arguments, project::Scene& scene) {
-  using project::GradientOf;
-  using project::Shading;
-  scene.shading = parse_choice<Shading>(
-      arguments.shading.empty() ? default_shading(arguments, scene.mode) : arguments.shading,
-      "--shading",
-      {{"none", Shading::none},
-       {"flat", Shading::flat},
-       {"smooth", Shading::smooth},
-       {"single", Shading::single},
-       {"weighted", Shading::weighted},
-       {"interpolated", Shading::interpolated},
-       {"surface", Shading::surface}});
-  if (!arguments.gradient.empty()) {
-    scene.gradient = parse_choice<GradientOf>(arguments.gradient, "--gradient",
-                                              {{"vertex", GradientOf::vertex},
-                                               {"cell", GradientOf::cell},
-                                               {"central", GradientOf::central},
-                                               {"sobel", GradientOf::sobel}});
-    const bool of_grid =
-        scene.gradient == GradientOf::central || scene.gradient == GradientOf::sobel;
-    if (of_grid != draws_grid(arguments)) {
-      throw base::UsageError(of_grid
-                                 ? "--gradient central and sobel are for --projector slices "
-                                   "and grid-reference; cells have vertex and cell"
-                                 : "--gradient vertex and cell are those of cells; --projector " +
-                                       arguments.projector + " has central and sobel");
-    }
-    if (scene.shading == Shading::none) {
-      throw base::UsageError("--gradient is that of --shading, which is none here");
-    }
-    if (scene.gradient == GradientOf::cell && scene.shading == Shading::smooth)
-      scene.shading = Shading::flat;
-    if (scene.gradient == GradientOf::vertex && scene.shading == Shading::flat)
-      throw base::UsageError("--shading flat is by the gradient of cells: use --shading smooth");
-  }
-  if (!arguments.lights.empty()) scene.lights = project::read_lights(arguments.lights);
-  if (!arguments.modulate.empty()) {
-    scene.modulation = parse_number(arguments.modulate, "--modulate");
-    if (!(*scene.modulation > 0)) {
-      throw base::UsageError(
-          "--modulate needs a gradient above 0, in the field's units per length");
-    }
-  }
-}
-
 project::GlRequest make_gl_request(const RenderArguments& arguments) {
   using project::Layout;
   using project::Minimum;
@@ -253,9 +201,9 @@ std::vector<Eigen::Vector3d> points_around(const RenderArguments& arguments,
 }
 
 /// Sets up the camera of a scene whose size is known.
-void frame_scene(const RenderArguments& arguments, const Figure& figure, project::Scene& scene) {
+void frame_scene(const RenderArguments& arguments, const Figure& figure,
+                 const Eigen::Vector3d& middle, project::Scene& scene) {
   const double aspect = static_cast<double>(scene.width) / scene.height;
-  const Eigen::Vector3d middle = mesh::bounds(*scene.mesh).center();
   // A copy of the mesh's points only where there are others.
   std::vector<Eigen::Vector3d> all = points_around(arguments, scene);
   if (!all.empty()) all.insert(all.begin(), scene.mesh->points.begin(), scene.mesh->points.end());
@@ -295,8 +243,32 @@ bool draws_grid(const RenderArguments& arguments) {
   return arguments.projector == "grid-reference" || arguments.projector == "slices";
 }
 
+DrawnField select_field(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
+  DrawnField result;
+  result.field = mesh::select_scalar(mesh, arguments.field);
+  if (draws_grid(arguments)) {
+    result.drawable.nan = static_cast<std::size_t>(std::ranges::count_if(
+        result.field.values, [](double value) { return !std::isfinite(value); }));
+  } else {
+    result.drawable = mesh::find_drawable(mesh, result.field);
+  }
+  if (result.drawable.cells.empty() && !draws_grid(arguments)) {
+    throw base::InputError(fmt::format(
+        "{}: no cell can be drawn: {} have no volume, {} touch values of '{}' or "
+        "coordinates that are not finite",
+        arguments.input, result.drawable.degenerate, result.drawable.nan, result.field.name));
+  }
+  result.box = mesh::bounds(mesh);
+  return result;
+}
+
 project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
                           const mesh::ScalarField* values) {
+  return make_scene(arguments, mesh, select_field(arguments, mesh), values);
+}
+
+project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh& mesh,
+                          DrawnField drawn, const mesh::ScalarField* values) {
   project::Scene scene;
   scene.mesh = &mesh;
   std::tie(scene.width, scene.height) = parse_size(arguments.size, "--size");
@@ -312,22 +284,10 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   scene.mip_of = parse_choice<project::MipOf>(
       arguments.mip_of, "--mip-of",
       {{"field", project::MipOf::field}, {"transfer", project::MipOf::transfer}});
-  scene.field = mesh::select_scalar(mesh, arguments.field);
-  if (draws_grid(arguments)) {
-    scene.drawable.nan = static_cast<std::size_t>(std::ranges::count_if(
-        scene.field.values, [](double value) { return !std::isfinite(value); }));
-  } else {
-    scene.drawable = mesh::find_drawable(mesh, scene.field);
-  }
-  if (scene.drawable.cells.empty() && !draws_grid(arguments)) {
-    throw base::InputError(fmt::format(
-        "{}: no cell can be drawn: {} have no volume, {} touch values of '{}' or "
-        "coordinates that are not finite",
-        arguments.input, scene.drawable.degenerate, scene.drawable.nan, scene.field.name));
-  }
-  const mesh::Box box = mesh::bounds(mesh);
+  scene.field = std::move(drawn.field);
+  scene.drawable = std::move(drawn.drawable);
   scene.transfer_function = make_transfer_function(
-      arguments, values != nullptr ? *values : scene.field, box.diagonal().norm());
+      arguments, values != nullptr ? *values : scene.field, drawn.box.diagonal().norm());
   if (scene.mode == Mode::iso) {
     scene.isosurfaces = make_isosurfaces(arguments, values != nullptr ? *values : scene.field,
                                          scene.transfer_function);
@@ -352,7 +312,7 @@ project::Scene make_scene(const RenderArguments& arguments, const mesh::TetMesh&
   const Figure figure(arguments, scene, scene.width, scene.height);
   scene.width = figure.picture_width();
   scene.height = figure.picture_height();
-  frame_scene(arguments, figure, scene);
+  frame_scene(arguments, figure, drawn.box.center(), scene);
   return scene;
 }
 

@@ -11,6 +11,7 @@
 #include "apps/figure.h"
 #include "apps/mesh_input.h"
 #include "apps/picture_files.h"
+#include "apps/view/camera_motion.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
 
@@ -94,6 +95,7 @@ class Drawing::Work {
 
  private:
   void read(const DrawRequest& request);
+  void select(const RenderArguments& arguments);
   void set_up(const DrawRequest& request, Drawn& drawn);
   project::Plan make_plan(const project::Scene& scene, const RenderArguments& arguments);
   const project::gl::Context* context();
@@ -105,6 +107,13 @@ class Drawing::Work {
   std::unique_ptr<project::gl::Context> context_;
   mesh::Import import_;
   std::shared_ptr<const SceneFacts> facts_;
+  struct KeptField {
+    std::string name;  // as asked for
+    bool of_grid = false;
+    DrawnField drawn;
+    preint::Histogram histogram;
+  };
+  std::optional<KeptField> field_;  // of the mesh
   int samples_ = 1;
   project::Scene scene_;
   project::Camera first_camera_;  // of the scene by its arguments
@@ -135,6 +144,7 @@ void Drawing::Work::read(const DrawRequest& request) {
   if (mesh_version_ == request.mesh_version) return;
   projector_.reset();
   facts_.reset();
+  field_.reset();
   mesh_version_.reset();
   scene_version_.reset();
   mesh::ImportOptions options = request.arguments.import;
@@ -143,12 +153,28 @@ void Drawing::Work::read(const DrawRequest& request) {
   mesh_version_ = request.mesh_version;
 }
 
+void Drawing::Work::select(const RenderArguments& arguments) {
+  const bool of_grid = draws_grid(arguments);
+  if (field_ && field_->name == arguments.field && field_->of_grid == of_grid) return;
+  field_.reset();
+  KeptField kept{arguments.field, of_grid, select_field(arguments, import_.mesh), {}};
+  const mesh::ScalarField& field = kept.drawn.field;
+  if (field.min < field.max) {
+    kept.histogram = preint::histogram(field.values, field.min, field.max, kBins);
+  }
+  field_ = std::move(kept);
+}
+
 void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   if (scene_version_ == request.scene_version) return;
   const base::Stopwatch clock;
   projector_.reset();
   scene_version_.reset();
-  scene_ = make_scene(request.arguments, import_.mesh);
+  select(request.arguments);
+  RenderArguments arguments = request.arguments;
+  // To frame the mesh is a pass over its points.
+  if (request.camera) static_cast<CameraArguments&>(arguments) = camera_arguments(*request.camera);
+  scene_ = make_scene(arguments, import_.mesh, field_->drawn);
   first_camera_ = scene_.camera;
   samples_ = scene_.samples;
   auto facts = std::make_shared<SceneFacts>();
@@ -156,15 +182,13 @@ void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   facts->field = scene_.field.name;
   facts->low = scene_.field.min;
   facts->high = scene_.field.max;
-  if (facts->low < facts->high) {
-    facts->histogram = preint::histogram(scene_.field.values, facts->low, facts->high, kBins);
-  }
+  facts->histogram = field_->histogram;
   facts->transfer_function = scene_.transfer_function;
-  for (const preint::Isosurface& surface : scene_.isosurfaces) {
-    facts->isovalues.push_back(surface.value);
-  }
+  facts->isosurfaces = scene_.isosurfaces;
+  facts->shading = scene_.shading;
+  facts->lights = scene_.lights;
   facts->mode = scene_.mode;
-  facts->box = mesh::bounds(import_.mesh);
+  facts->box = field_->drawn.box;
   facts->cells = scene_.drawable.cells.size();
   facts->not_drawn = scene_.drawable.degenerate + scene_.drawable.nan;
   facts->notes = import_.report.notes;

@@ -51,7 +51,9 @@ struct SceneFacts {
   double high = 0;
   preint::Histogram histogram;
   preint::TransferFunction transfer_function{{preint::ControlPoint{}}};
-  std::vector<double> isovalues;
+  std::vector<preint::Isosurface> isosurfaces;
+  project::Shading shading = project::Shading::none;
+  std::optional<project::Lights> lights;
   project::Mode mode = project::Mode::full;
   mesh::Box box;
   std::size_t cells = 0;  ///< drawn

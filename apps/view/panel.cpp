@@ -13,37 +13,20 @@
 
 #include "apps/options.h"
 #include "apps/transfer_function_input.h"
+#include "apps/view/isosurface_panel.h"
+#include "apps/view/light_panel.h"
+#include "apps/view/widgets.h"
 
 namespace tetraglass::apps::view {
 namespace {
 
 using Names = std::vector<std::string>;
 
-/// A list to choose from; whether another name was chosen.
-bool choose(const char* label, const Names& names, std::string& chosen) {
-  bool changed = false;
-  if (!ImGui::BeginCombo(label, chosen.empty() ? "default" : chosen.c_str())) return false;
-  for (const std::string& name : names) {
-    if (ImGui::Selectable(name.empty() ? "default" : name.c_str(), name == chosen) &&
-        name != chosen) {
-      chosen = name;
-      changed = true;
-    }
-  }
-  ImGui::EndCombo();
-  return changed;
-}
-
-/// The same for an option of the scene.
+/// A list to choose an option of the scene from.
 void choose_option(Viewer& viewer, const char* label, const Names& names,
                    std::string RenderArguments::*option) {
   std::string chosen = viewer.arguments().*option;
   if (choose(label, names, chosen)) viewer.change_scene().*option = chosen;
-}
-
-bool slider(const char* label, double& value, double low, double high, const char* format = "%.5g",
-            ImGuiSliderFlags flags = 0) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format, flags);
 }
 
 void show_text(const std::string& text) {
@@ -94,43 +77,10 @@ void choose_field(Viewer& viewer) {
   if (choose("field", facts->fields, field)) viewer.set_field(field);
 }
 
-void set_isovalues(Viewer& viewer) {
-  const SceneFacts& facts = *viewer.facts();
-  Names values = viewer.arguments().isovalues;
-  bool changed = false;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    ImGui::PushID(static_cast<int>(i));
-    double value = parse_number(values[i], "--isovalue");
-    if (slider(i == 0 ? "isovalue" : "##isovalue", value, facts.low, facts.high)) {
-      values[i] = fmt::format("{}", value);
-      changed = true;
-    }
-    if (values.size() > 1) {
-      ImGui::SameLine();
-      if (ImGui::SmallButton("-")) {
-        values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
-        changed = true;
-      }
-    }
-    ImGui::PopID();
-  }
-  if (ImGui::SmallButton("+ isosurface")) {
-    values.push_back(fmt::format("{}", 0.25 * facts.low + 0.75 * facts.high));
-    changed = true;
-  }
-  double opacity = viewer.arguments().iso_opacity.empty()
-                       ? 1
-                       : parse_number(viewer.arguments().iso_opacity, "--iso-opacity");
-  if (slider("opacity", opacity, 0, 1, "%.2f")) {
-    viewer.change_scene().iso_opacity = fmt::format("{}", opacity);
-  }
-  if (changed) viewer.change_scene().isovalues = values;
-}
-
 void set_opacity_scale(Viewer& viewer) {
   const std::string& text = viewer.arguments().opacity_scale;
   double scale = text.empty() ? 1 : parse_number(text, "--opacity-scale");
-  if (slider("opacity x", scale, 0.01, 100, "%.3g", ImGuiSliderFlags_Logarithmic)) {
+  if (slider("opacity x", scale, 0.01, 100, "%.3g", true)) {
     viewer.change_scene().opacity_scale = fmt::format("{}", scale);
   }
 }
@@ -200,7 +150,7 @@ void show_scene(Viewer& viewer, PanelState& state) {
   // What belongs to the picture's mode; a change of the mode takes effect with the next picture.
   const std::string& mode = viewer.arguments().mode;
   if (mode != to_string(viewer.facts()->mode)) return;
-  if (mode == "iso") set_isovalues(viewer);
+  if (mode == "iso") draw_isosurface_panel(viewer);
   if (mode == "iso" || mode == "full") {
     choose_option(viewer, "shading",
                   mode == "iso" ? Names{"", "none", "flat", "smooth"}
@@ -295,12 +245,33 @@ void show_speed(const Viewer& viewer) {
   ImGui::TextDisabled("%s", text.c_str());
 }
 
+void set_samples(Viewer& viewer) {
+  std::string samples = viewer.arguments().samples.empty() ? "1" : viewer.arguments().samples;
+  Names choices = {"1", "4", "9", "16"};
+  if (std::ranges::find(choices, samples) == choices.end()) choices.push_back(samples);
+  if (choose("samples", choices, samples)) {
+    viewer.change_scene().samples = samples == "1" ? "" : samples;
+  }
+}
+
+void set_background(Viewer& viewer) {
+  const project::Background background = make_background(viewer.arguments(), viewer.facts()->mode);
+  preint::Color color(background.rgb[0], background.rgb[1], background.rgb[2]);
+  if (!edit_color("background", color)) return;
+  std::string text = to_text(color.matrix());
+  if (background.alpha != 1) text += fmt::format(",{}", background.alpha);
+  viewer.change_scene().background = text;
+}
+
 void show_camera(Viewer& viewer, std::vector<Action>& actions) {
   if (!viewer.camera()) return;
   bool parallel = viewer.camera()->parallel;
   if (ImGui::Checkbox("parallel", &parallel)) viewer.set_parallel(parallel);
   ImGui::SameLine();
   if (ImGui::Button("see all")) actions.push_back(Action::frame);
+  if (viewer.facts() == nullptr) return;
+  set_samples(viewer);
+  set_background(viewer);
 }
 
 bool section(const char* label, bool open) {
@@ -328,6 +299,7 @@ std::vector<Action> draw_panel(Viewer& viewer, PanelState& state) {
   if (section("Scene", true)) show_scene(viewer, state);
   if (section("Colors", true)) show_colors(viewer, state.plot);
   if (section("View", true)) show_camera(viewer, actions);
+  if (section("Light", false)) draw_light_panel(viewer);
   if (section("Figure", false)) show_figure(viewer);
   if (viewer.facts() != nullptr && section("Cut", false)) set_clip_planes(viewer);
   if (section("Method", false)) show_method(viewer);

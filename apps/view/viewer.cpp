@@ -14,6 +14,7 @@
 #include "apps/view/session.h"
 #include "preint/transfer_function_edit.h"
 #include "preint/transfer_function_file.h"
+#include "project/light/lights_file.h"
 
 namespace tetraglass::apps::view {
 namespace {
@@ -21,6 +22,17 @@ namespace {
 /// picture.png: picture.tf.json
 std::string transfer_function_file(const std::string& picture) {
   return std::filesystem::path(picture).replace_extension(".tf.json").string();
+}
+
+/// picture.png: picture.lights.json
+std::string lights_file(const std::string& picture) {
+  return std::filesystem::path(picture).replace_extension(".lights.json").string();
+}
+
+/// A name for a picture of this file that neither it nor what lies beside it has.
+std::string free_picture_name(const std::string& input) {
+  return free_name(std::filesystem::path(input).stem().string(),
+                   {".png", ".tf.json", ".lights.json", ".session.json"});
 }
 
 }  // namespace
@@ -150,6 +162,12 @@ void Viewer::redo() {
   apply_edit();
 }
 
+void Viewer::set_lights(std::optional<project::Lights> lights) {
+  RenderArguments& arguments = change_scene();
+  arguments.lights.clear();
+  arguments.own_lights = std::move(lights);
+}
+
 void Viewer::set_mode(const std::string& mode) {
   RenderArguments& arguments = change_scene();
   arguments.mode = mode;
@@ -236,8 +254,8 @@ void Viewer::accept(std::unique_ptr<Drawn> drawn) {
     follow_transfer_function();
     // Those that were chosen for want of others are said from now on.
     if (arguments_.isovalues.empty()) {
-      for (const double value : facts_->isovalues) {
-        arguments_.isovalues.push_back(fmt::format("{}", value));
+      for (const preint::Isosurface& surface : facts_->isosurfaces) {
+        arguments_.isovalues.push_back(fmt::format("{}", surface.value));
       }
     }
   }
@@ -278,13 +296,13 @@ std::vector<std::string> Viewer::command(const std::string& output) const {
     arguments.opacity.clear();
     arguments.logarithmic = false;
   }
+  if (arguments.own_lights) arguments.lights = lights_file(output);
   return render_words(arguments, typed_, output);
 }
 
 std::vector<std::string> Viewer::save_picture() const {
   RenderArguments arguments = arguments_;
-  const std::string name =
-      free_name(std::filesystem::path(arguments.input).stem().string(), {".png", ".tf.json"});
+  const std::string name = free_picture_name(arguments.input);
   arguments.outputs = {name + ".png"};
   write_pictures(arguments, arguments.outputs, facts_->mode, picture_->image);
   std::vector<std::string> files = arguments.outputs;
@@ -294,15 +312,20 @@ std::vector<std::string> Viewer::save_picture() const {
 }
 
 std::vector<std::string> Viewer::save_beside(const std::string& output) const {
-  if (!arguments_.own_transfer_function) return {};
-  const std::string file = transfer_function_file(output);
-  preint::write_transfer_function(*arguments_.own_transfer_function, file);
-  return {file};
+  std::vector<std::string> files;
+  if (arguments_.own_transfer_function) {
+    files.push_back(transfer_function_file(output));
+    preint::write_transfer_function(*arguments_.own_transfer_function, files.back());
+  }
+  if (arguments_.own_lights) {
+    files.push_back(lights_file(output));
+    project::write_lights(*arguments_.own_lights, files.back());
+  }
+  return files;
 }
 
 std::vector<std::string> Viewer::save_session() const {
-  const std::string stem = std::filesystem::path(arguments_.input).stem().string();
-  const std::string picture = free_name(stem, {".png", ".tf.json", ".session.json"}) + ".png";
+  const std::string picture = free_picture_name(arguments_.input) + ".png";
   std::vector<std::string> files = save_beside(picture);
   files.insert(files.begin(),
                std::filesystem::path(picture).replace_extension(".session.json").string());
@@ -322,9 +345,7 @@ std::vector<std::string> Viewer::save_session() const {
 }
 
 CopiedCommand Viewer::copy_command() const {
-  const std::string output =
-      free_name(std::filesystem::path(arguments_.input).stem().string(), {".png", ".tf.json"}) +
-      ".png";
+  const std::string output = free_picture_name(arguments_.input) + ".png";
   return {shell_line(command(output)), save_beside(output)};
 }
 

@@ -65,6 +65,8 @@ class Viewer {
   void apply_edit();
   void undo();
   void redo();
+  /// In the place of what --lights named; none: a headlight.
+  void set_lights(std::optional<project::Lights> lights);
   /// With the options that belong to it at their defaults.
   void set_mode(const std::string& mode);
   /// As --mode lists them, round and round.

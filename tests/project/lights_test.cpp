@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "project/light/lights_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace tetraglass::project {
@@ -67,6 +68,31 @@ TEST_F(LightsFile, ErrorsSayWhere) {
   EXPECT_THAT(
       error(R"({"lights": [{"type": "rectangle", "corner": [0,0,0], "edges": [[1,0,0]]}]})"),
       HasSubstr("lights[0].edges must be a list of two edges"));
+}
+
+// What is written reads back to the last bit.
+TEST_F(LightsFile, ReadsBackAsWritten) {
+  const std::string file = folder_.file("written.json");
+  Lights lights;
+  lights.ambient = {0.1, 1.0 / 3, 0};
+  lights.lights.emplace_back(DirectionalLight{{-1, 0.1, 1e-300}, {1, 0.5, 2.0 / 7}});
+  lights.lights.emplace_back(PointLight{{1e20, -3.7, 0}, {4, 0, 0}});
+  lights.lights.emplace_back(RectangleLight{
+      {0, 0, 5}, {Eigen::Vector3d(1, 0.3, 0), Eigen::Vector3d(0, 1, 0.1)}, {1, 1, 1}});
+  write_lights(lights, file);
+  const Lights again = read_lights(file);
+  EXPECT_TRUE((again.ambient == lights.ambient).all());
+  ASSERT_EQ(again.lights.size(), 3U);
+  const auto& directional = std::get<DirectionalLight>(again.lights[0]);
+  EXPECT_EQ(directional.direction, std::get<DirectionalLight>(lights.lights[0]).direction);
+  EXPECT_TRUE((directional.color == std::get<DirectionalLight>(lights.lights[0]).color).all());
+  const auto& point = std::get<PointLight>(again.lights[1]);
+  EXPECT_EQ(point.position, std::get<PointLight>(lights.lights[1]).position);
+  EXPECT_TRUE((point.color == std::get<PointLight>(lights.lights[1]).color).all());
+  const auto& rectangle = std::get<RectangleLight>(again.lights[2]);
+  EXPECT_EQ(rectangle.corner, std::get<RectangleLight>(lights.lights[2]).corner);
+  EXPECT_EQ(rectangle.edges, std::get<RectangleLight>(lights.lights[2]).edges);
+  EXPECT_THROW(write_lights(lights, folder_.file("no/folder.json")), base::WriteError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "project/image_file.h"
 #include "project/render.h"
 #include "tests/support/program.h"
 
@@ -200,6 +201,56 @@ TEST_F(ViewerTest, FramesTheMeshFromASide) {
   viewer.frame();
   finish(viewer);
   EXPECT_NEAR((viewer.camera()->eye - camera.eye).norm(), 0, 1e-9);
+}
+
+// Lights of the window are drawn, and go to a file that the command line names.
+TEST_F(ViewerTest, LightsAreThoseOfTheCommandLine) {
+  RenderArguments lit = arguments();
+  lit.mode = "iso";
+  Viewer viewer(lit, {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  ASSERT_TRUE(viewer.complete()) << viewer.error();
+  EXPECT_FALSE(viewer.facts()->lights);
+  const std::vector<float> headlight = viewer.picture()->image.rgba;
+  project::Lights lights;
+  lights.ambient = {0.1, 0.2, 0.3};
+  lights.lights.emplace_back(project::PointLight{{3, -2, 1.5}, {1, 0.1, 0.7}});
+  viewer.set_lights(lights);
+  finish(viewer);
+  const std::vector<float> image = viewer.picture()->image.rgba;
+  EXPECT_NE(image, headlight);
+  EXPECT_EQ(image, rendered(viewer).rgba);
+  ASSERT_TRUE(viewer.facts()->lights);
+
+  const fs::path before = fs::current_path();
+  fs::current_path(folder().file(""));
+  const CopiedCommand copied = viewer.copy_command();
+  ASSERT_EQ(copied.files.size(), 1U);
+  EXPECT_NE(copied.line.find("--lights " + copied.files[0]), std::string::npos) << copied.line;
+  std::string line = copied.line.substr(std::string("tetraglass ").size());
+  const tests::ProgramRun run = tests::run_program(line + " -o lit.npy");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const project::Image drawn = project::read_image("lit.npy").image;
+  fs::current_path(before);
+  EXPECT_EQ(drawn.rgba, image);
+
+  viewer.set_lights(std::nullopt);
+  finish(viewer);
+  EXPECT_EQ(viewer.picture()->image.rgba, headlight);
+}
+
+// What is kept of a field is not taken for another one's.
+TEST_F(ViewerTest, AnotherFieldIsAnother) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  for (const char* field : {"x", "radius", ""}) {
+    viewer.set_field(field);
+    finish(viewer);
+    ASSERT_TRUE(viewer.complete()) << viewer.error();
+    EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba) << field;
+  }
 }
 
 }  // namespace

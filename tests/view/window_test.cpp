@@ -258,6 +258,37 @@ TEST_F(WindowTest, TinyAndHiddenWindowsAndAFileThatVanishes) {
   quit();
 }
 
+// Steps of time play round and round until they are stopped.
+TEST_F(WindowTest, PlaysTheTimeSteps) {
+  ASSERT_EQ(run_program("sample sphere --cells 1000 -o '" + folder_.file("other.vtu") + "'").status,
+            0);
+  write_text(folder_.file("sphere.vtu - tetraglass.pvd"),
+             "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+             "<DataSet timestep=\"0\" file=\"sphere.vtu\"/>"
+             "<DataSet timestep=\"2\" file=\"other.vtu\"/></Collection></VTKFile>");
+  ASSERT_NO_FATAL_FAILURE(start({"sphere.vtu - tetraglass.pvd", "--size", "200x500"}));
+  const Image last = picture(ask("s"));
+  ASSERT_EQ(xdotool("key space"), 0);
+  // Sooner or later each step is asked for by the command line.
+  for (const std::string step : {"--time index:0", "--time index:1"}) {
+    EXPECT_TRUE(wait_until([&] { return ask("c").find(step) != std::string::npos; })) << step;
+  }
+  ASSERT_EQ(xdotool("key space"), 0);
+  quit();
+}
+
+// The display goes away under the window: a line, and an end that is no crash.
+TEST_F(WindowTest, ADisplayThatVanishes) {
+  ASSERT_NO_FATAL_FAILURE(open({}));
+  (void)ask("s");
+  display_.reset();
+  ASSERT_TRUE(wait_until([&] { return !program_->running(); }));
+  EXPECT_EQ(program_->exit_status(), 1);
+  const std::vector<std::string> lines = lines_of(read_text(folder_.file("err")));
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("X connection"), std::string::npos) << lines.back();
+}
+
 TEST(Window, WithoutADisplayThereIsOneLine) {
   const TemporaryFolder folder;
   const std::string mesh = folder.file("sphere.vtu");
