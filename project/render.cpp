@@ -29,6 +29,7 @@ Image average(const Image& samples, int n) {
 struct SceneProjector::Kept {
   const Scene& scene;
   Plan plan;
+  const gl::Context* context;  // of the user, or null
   std::optional<cpu::CellProjector> cpu;
   std::unique_ptr<gl::Context> own_context;
   std::optional<gl::CellProjector> gl;
@@ -36,12 +37,24 @@ struct SceneProjector::Kept {
 
 SceneProjector::SceneProjector(const Scene& scene, const Plan& plan, Stats& stats,
                                const gl::Context* context)
-    : kept_(new Kept{scene, plan, {}, {}, {}}) {
+    : kept_(new Kept{scene, plan, context, {}, {}, {}}) {
   if (plan.projector == Projector::cpu) kept_->cpu.emplace(scene, plan);
-  if (plan.projector == Projector::gl && !scene.drawable.cells.empty()) {
-    if (context == nullptr) kept_->own_context = gl::Context::create(plan.context);
-    kept_->gl.emplace(context == nullptr ? *kept_->own_context : *context, scene, plan, stats);
+  if (plan.projector == Projector::gl) set_up_gl(stats);
+}
+
+void SceneProjector::set_up_gl(Stats& stats) {
+  kept_->gl.reset();  // its buffers are freed before others are filled
+  if (kept_->scene.drawable.cells.empty()) return;
+  if (kept_->context == nullptr) {
+    kept_->own_context = gl::Context::create(kept_->plan.context);
+    kept_->context = kept_->own_context.get();
   }
+  kept_->gl.emplace(*kept_->context, kept_->scene, kept_->plan, stats);
+}
+
+void SceneProjector::update(Stats& stats) {
+  if (kept_->cpu) kept_->cpu->update();
+  if (kept_->plan.projector == Projector::gl) set_up_gl(stats);
 }
 
 SceneProjector::~SceneProjector() = default;

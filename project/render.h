@@ -20,7 +20,8 @@ class Context;
 
 /// The same for any number of views of a scene, as its `camera`, size and samples say when a
 /// picture is drawn: the cpu and gl projectors set up once what does not depend on the view.
-/// Nothing else of the scene may change but its opaque geometry; it outlives this.
+/// Of the rest of the scene only its opaque geometry may change, and, with `update`, what shows; it
+/// outlives this.
 class SceneProjector {
  public:
   /// Throws as `render`. Adds the time for tables to `stats`. gl draws on `context`, which outlives
@@ -31,9 +32,16 @@ class SceneProjector {
   SceneProjector(const SceneProjector&) = delete;
   SceneProjector& operator=(const SceneProjector&) = delete;
 
+  /// To be called after the scene's field, transfer function, isosurfaces, lights or modulation
+  /// have changed, but not its mesh, its mode or what the plan depends on. The cpu projector keeps
+  /// what depends on the mesh alone, gl its context. Adds the time for tables to `stats`.
+  void update(Stats& stats);
+
   [[nodiscard]] Image draw(Stats& stats);
 
  private:
+  void set_up_gl(Stats& stats);
+
   struct Kept;
   std::unique_ptr<Kept> kept_;
 };

@@ -68,19 +68,31 @@ std::size_t bytes_of(const std::vector<T>& values) {
 
 CellProjector::CellProjector(const Scene& scene, const Plan& plan)
     : scene_(scene), plan_(plan), cells_(scene) {
-  set_up_.add(Effect::cells, bytes_of(cells_.cells) + bytes_of(cells_.numbers) +
-                                 bytes_of(cells_.point_values) + bytes_of(cells_.cell_values));
-  if (scene.modulation) set_up_.add(Effect::modulation, bytes_of(cells_.densities));
   // Halved before they are added or subtracted: numbers near the largest double must not overflow.
   const mesh::Box box = mesh::bounds(*scene.mesh);
-  if (box.isEmpty()) return;
-  middle_ = 0.5 * box.min() + 0.5 * box.max();
-  const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
-  if (half_diagonal > 0) radius_ = half_diagonal;
-  surfaces_ = surfaces(scene, cells_);
-  if (scene.shading != Shading::none) set_up_light();
-  if (scene.mode != Mode::thickness && scene.mode != Mode::iso) set_up_medium();
-  if (plan.table_n > 0) set_up_table();
+  if (!box.isEmpty()) {
+    middle_ = 0.5 * box.min() + 0.5 * box.max();
+    const double half_diagonal = (0.5 * box.max() - 0.5 * box.min()).stableNorm();
+    if (half_diagonal > 0) radius_ = half_diagonal;
+  }
+  set_up();
+}
+
+void CellProjector::update() {
+  cells_.update(scene_);
+  drawn_of_cell_.clear();
+  set_up();
+}
+
+void CellProjector::set_up() {
+  set_up_.add(Effect::cells, bytes_of(cells_.cells) + bytes_of(cells_.numbers) +
+                                 bytes_of(cells_.point_values) + bytes_of(cells_.cell_values));
+  if (scene_.modulation) set_up_.add(Effect::modulation, bytes_of(cells_.densities));
+  if (cells_.size() == 0) return;
+  surfaces_ = surfaces(scene_, cells_);
+  if (scene_.shading != Shading::none) set_up_light();
+  if (scene_.mode != Mode::thickness && scene_.mode != Mode::iso) set_up_medium();
+  if (plan_.table_n > 0) set_up_table();
 }
 
 void CellProjector::set_up_light() {
@@ -113,8 +125,11 @@ void CellProjector::order_cells(const Frame& frame, Stats& stats) {
   if (!sorts_cells(plan_)) return;
   const base::Stopwatch clock;
   // Sorted with the rest: what is not drawn still tells which of two others lies behind.
-  if (!sorter_) {
-    sorter_.emplace(plan_.sort, *scene_.mesh, scene_.drawable.cells);
+  if (!sorter_ || sorted_cells_ != scene_.drawable.cells) {
+    sorted_cells_ = scene_.drawable.cells;
+    sorter_.emplace(plan_.sort, *scene_.mesh, sorted_cells_);
+  }
+  if (drawn_of_cell_.empty()) {
     drawn_of_cell_.assign(scene_.mesh->cells.size(), kNotDrawn);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       drawn_of_cell_[cells_.numbers[i]] = static_cast<std::uint32_t>(i);

@@ -32,11 +32,17 @@ class CellProjector {
   /// The scene (and its mesh) outlives this.
   CellProjector(const Scene& scene, const Plan& plan);
 
+  /// To be called after the scene's field, transfer function, isosurfaces, lights or modulation
+  /// have changed. Its mesh, its mode and what its plan depends on may not; what depends on the
+  /// mesh alone is kept.
+  void update();
+
   /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
   /// and size do not matter. Throws UsageError for a plan that this projector lacks.
   [[nodiscard]] Image draw(const Frame& frame, Stats& stats);
 
  private:
+  void set_up();
   void set_up_light();
   void set_up_medium();
   void set_up_table();
@@ -58,7 +64,8 @@ class CellProjector {
   std::optional<Lighting> lighting_;
   Stats set_up_;  // what all views have in common took, until it is told
   std::optional<sort::CellSorter> sorter_;
-  std::vector<std::uint32_t> drawn_of_cell_;  // where the cells are sorted
+  std::vector<std::uint32_t> sorted_cells_;   // where cells are sorted: those of the sorter
+  std::vector<std::uint32_t> drawn_of_cell_;  // ... and where they are among the drawn ones
   std::vector<std::uint32_t> order_;          // drawn cells
   ViewPoints points_;
   TileBins bins_;

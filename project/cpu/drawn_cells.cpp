@@ -31,24 +31,35 @@ bool sort_vertices(mesh::Cell& cell) {
 }  // namespace
 
 DrawnCells::DrawnCells(const Scene& scene) : scale(scene.field) {
-  numbers = shown_cells(scene, scale);
+  update(scene);
+}
+
+void DrawnCells::update(const Scene& scene) {
+  scale = ValueScale(scene.field);
+  std::vector<std::uint32_t> shown = shown_cells(scene, scale);
+  const bool same = shown == numbers;
+  numbers = std::move(shown);
   const std::vector<double>& values = scene.field.values;
   const bool of_cells = scene.field.location == mesh::Location::cell;
   cells.resize(numbers.size());
-  if (of_cells) cell_values.resize(numbers.size());
-  base::parallel_ranges(numbers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      cells[i].vertices = scene.mesh->cells[numbers[i]];
-      cells[i].mirrored = sort_vertices(cells[i].vertices);
-      if (of_cells) cell_values[i] = scale.scaled(values[numbers[i]]);
-    }
-  });
+  cell_values.resize(of_cells ? numbers.size() : 0);
+  if (!same || of_cells) {
+    base::parallel_ranges(numbers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (of_cells) cell_values[i] = scale.scaled(values[numbers[i]]);
+        if (same) continue;
+        cells[i].vertices = scene.mesh->cells[numbers[i]];
+        cells[i].mirrored = sort_vertices(cells[i].vertices);
+      }
+    });
+  }
+  densities.clear();
   if (scene.modulation) {
     const std::vector<double> all = cell_densities(scene);
     for (const std::uint32_t cell : numbers) densities.push_back(static_cast<float>(all[cell]));
   }
+  point_values.resize(of_cells ? 0 : values.size());
   if (of_cells) return;
-  point_values.resize(values.size());
   base::parallel_ranges(values.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) point_values[i] = scale.scaled(values[i]);
   });

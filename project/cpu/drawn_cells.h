@@ -33,6 +33,10 @@ struct DrawnCells {
   /// Takes those of `shown_cells`.
   explicit DrawnCells(const Scene& scene);
 
+  /// The same of another field or transfer function on the same mesh; the cells themselves are read
+  /// again only where others are shown.
+  void update(const Scene& scene);
+
   [[nodiscard]] std::size_t size() const { return cells.size(); }
 
   ValueScale scale;

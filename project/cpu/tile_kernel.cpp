@@ -44,6 +44,11 @@ struct TileBuffers::Contents {
   [[nodiscard]] std::size_t record_count() const { return record_count_; }
 
   hwy::AlignedFreeUniquePtr<float[]> last_keys;  // only where there are records
+  /// Records of each delay line to begin with: wider once many blocks had to be drawn again.
+  std::size_t window = kWindow;
+
+  static constexpr std::size_t kWindow = 16;  // enough for nearly all blocks of most meshes
+  static constexpr std::size_t kWide = 64;    // ... of slivers: all lines still fit into L2 caches
 
  private:
   hwy::AlignedFreeUniquePtr<float[]> records_;
@@ -162,8 +167,8 @@ std::vector<std::uint32_t> cells_over(const Picture& picture, int tile_x, int ti
 template <class Shader>
 TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::uint32_t> cells,
                      TileBuffers::Contents& buffers) {
-  constexpr std::size_t kWindow = 16;       // enough for nearly all blocks of meshes without cycles
-  constexpr std::size_t kWider = 4;         // times, where it was not
+  constexpr std::size_t kWider = 4;         // times, where the window was too short
+  constexpr std::size_t kMany = 16;         // one of so many blocks
   constexpr std::size_t kMemory = 1 << 22;  // floats of all delay lines of one pass
   if (!picture.cells_in_order && !buffers.last_keys) {
     buffers.last_keys = hwy::AllocateAligned<float>(TileBuffers::Contents::kPixels);
@@ -172,11 +177,14 @@ TileStats blend_tile(const Picture& picture, int x, int y, std::span<const std::
   const auto side = static_cast<std::size_t>(picture.tile_size);
   std::vector<std::uint16_t> blocks(side * side / kLanes);
   std::iota(blocks.begin(), blocks.end(), std::uint16_t{0});
+  const std::size_t lines = blocks.size();
+  const std::size_t first_window = picture.cells_in_order ? 0 : buffers.window;
   TileStats stats;
-  blocks = blend_blocks<Shader>(picture, x, y, cells, blocks, picture.cells_in_order ? 0 : kWindow,
-                                buffers, image, stats.fragments);
+  blocks = blend_blocks<Shader>(picture, x, y, cells, blocks, first_window, buffers, image,
+                                stats.fragments);
   stats.redone = blocks.size();
-  for (std::size_t window = kWindow * kWider; !blocks.empty(); window *= kWider) {
+  if (kMany * stats.redone > lines) buffers.window = TileBuffers::Contents::kWide;
+  for (std::size_t window = first_window * kWider; !blocks.empty(); window *= kWider) {
     const std::vector<std::uint32_t> covering = cells_over(picture, x, y, cells, blocks);
     const std::size_t at_once =
         std::max<std::size_t>(1, kMemory / (window * FragmentLines::kRecord));

@@ -80,9 +80,9 @@ struct TileStats {
 /// vectors of the machine. Writes the tile's pixels of the image.
 ///
 /// In modes that blend the cells come roughly front to back. The segments of each pixel are then
-/// put in exact order: in a window of 16 segments; blocks of pixels where that was not enough are
-/// drawn again, with wider windows, until it is. Cells in an order of their own are blended as they
-/// come.
+/// put in exact order: in a window of 16 segments, or of 64 where that was often too short; blocks
+/// of pixels where it was not enough are drawn again, with wider windows, until it is. Cells in an
+/// order of their own are blended as they come.
 ///
 /// Tiles do not touch each other's pixels and may be drawn at once.
 ///

@@ -319,6 +319,57 @@ TEST(Cpu, ProjectorDrawsManyViews) {
   }
 }
 
+/// A projector that is told of other values, colors and surfaces draws what a new one would.
+TEST(Cpu, UpdatesDrawWhatANewProjectorDraws) {
+  const mesh::TetMesh mesh =
+      box(kBox.min(), kBox.max(), 5, 5, 5, [](const auto& p) { return p.x(); });
+  const auto check = [&](Scene scene, SortMethod sort) {
+    Request request;
+    request.projector = Projector::cpu;
+    request.sort = sort;
+    cpu::CellProjector projector(scene, plan(scene, request));
+    const auto expect_same = [&](const std::string& what) {
+      projector.update();
+      cpu::CellProjector fresh(scene, plan(scene, request));
+      Stats stats;
+      const Frame frame = make_frame(scene);
+      EXPECT_EQ(projector.draw(frame, stats).rgba, fresh.draw(frame, stats).rgba)
+          << to_string(scene.mode) << ", " << to_string(sort) << ": " << what;
+      EXPECT_GT(stats.fragments, 0U);
+    };
+    Stats stats;
+    (void)projector.draw(make_frame(scene), stats);
+    scene.transfer_function = peaks(scene.field, 5);
+    for (preint::Isosurface& surface : scene.isosurfaces) surface.value += 0.3;
+    expect_same("fewer cells shown");
+    for (double& value : scene.field.values) value = -0.5 * value * value;
+    scene.field.min = *std::min_element(scene.field.values.begin(), scene.field.values.end());
+    scene.field.max = 0;
+    for (preint::Isosurface& surface : scene.isosurfaces) surface.value = -0.1;
+    expect_same("other values");
+    scene.transfer_function = preint::preset("viridis", scene.field.min, 0, 4);
+    expect_same("all cells shown");
+    scene.drawable.cells.resize(scene.drawable.cells.size() / 2);
+    expect_same("half of the cells drawable");
+  };
+  for (const Case& what : kCases) {
+    Scene scene = make_scene(mesh, what.mode, preint::preset("viridis", -1, 1, 4), 72);
+    scene.mip_of = what.mip_of;
+    const SortMethod exact = what.mode == Mode::full ? SortMethod::fragments : SortMethod::none;
+    check(scene, exact);
+    if (what.mode != Mode::full) continue;
+    check(scene, SortMethod::mpvo);
+    scene.shading = Shading::smooth;
+    check(scene, exact);
+    scene.shading = Shading::none;
+    scene.modulation = 1;
+    check(scene, exact);
+  }
+  Scene surfaces = make_scene(mesh, Mode::iso, preint::preset("viridis", -1, 1, 4), 72);
+  surfaces.isosurfaces = {{-0.3, {1, 0, 0}, 0.5}, {0.1, {0, 1, 0}, 0.5}};
+  check(surfaces, SortMethod::fragments);
+}
+
 /// Every instruction set that the machine has draws what the widest one does.
 TEST(Cpu, InstructionSetsAgree) {
   const mesh::TetMesh mesh = mesh::make_sample("orbital", 3000);
