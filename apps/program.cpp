@@ -20,6 +20,7 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
+/// What is linked, and its licence: first what the binary as a whole falls under.
 std::string version_text() {
   std::string text = "tetraglass " TETRAGLASS_VERSION "\nSources: BSD-3-Clause.";
   std::string parts;
@@ -32,9 +33,35 @@ std::string version_text() {
 #ifdef TETRAGLASS_WITH_GMSH
   parts += "\n  Gmsh     GPL-2.0-or-later (reads its formats)";
 #endif
-  if (parts.empty()) return text + " This binary holds no GPL or AGPL library.";
-  return text + " This binary also holds, and falls as a whole under the licences of:" + parts +
-         "\nEach can be left out: cmake -DTETRAGLASS_WITH_{TETGEN,CGAL,GMSH}=OFF";
+  if (parts.empty()) {
+    text += " This binary holds no GPL or AGPL library.";
+  } else {
+    text += " This binary also holds, and falls as a whole under the licences of:" + parts +
+            "\nEach can be left out: cmake -DTETRAGLASS_WITH_{TETGEN,CGAL,GMSH}=OFF";
+  }
+  text +=
+      "\nUnder licences that ask for less it holds:"
+      "\n  LGPL-3.0-or-later    MED, GMP, MPFR"
+#ifndef TETRAGLASS_WITH_CGAL
+      ", CGAL's kernel"
+#endif
+      "\n  LGPL-2.1 or MPL-1.1  Cairo"
+      "\n  MPL-2.0              Eigen"
+      "\n  Apache-2.0           oneTBB, Highway"
+      "\n  BSD-3-Clause         VTK with Exodus, NetCDF, OpenEXR, CLI11"
+#ifdef TETRAGLASS_WITH_CGAL
+      ", OpenMesh"
+#endif
+      "\n  MIT                  fmt, JSON for Modern C++, expat, libcerf, Fontconfig, Mesa's "
+      "OSMesa, EGL"
+#ifdef TETRAGLASS_WITH_WINDOW
+      ", Dear ImGui, stb"
+      "\n  zlib                 GLFW, zlib"
+#else
+      "\n  zlib                 zlib"
+#endif
+      "\n  their own            libpng (PNG Reference Library), bzip2 (BSD-like), Boost (BSL-1.0)";
+  return text;
 }
 
 std::vector<std::string> subcommand_names(const CLI::App& program) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -424,6 +425,45 @@ TEST_F(CommandLine, RegionsAndSamples) {
   expect_error(render + part + " --region 1,2,3", 2, "--region");
   expect_error(render + part + " --region 1,2,3,0", 2, "whole pixels");
   expect_error("render " + sphere() + " --size 40000x10 --samples 4 -o " + part, 2, "65536");
+}
+
+// Every library that the program is linked to is in --version, with its licence.
+TEST_F(CommandLine, VersionNamesWhatIsLinked) {
+  const std::string version = run_program("--version").out;
+  const std::string list = output_.file("needed");
+  if (std::system(("readelf -d '" TETRAGLASS_PROGRAM "' >'" + list + "' 2>/dev/null").c_str()) != 0)
+    GTEST_SKIP() << "readelf is not installed";
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {"libvtk", "VTK"},           {"libnetcdf", "NetCDF"},
+      {"libmedC", "MED"},          {"libtet", "TetGen"},
+      {"libOpenMesh", "OpenMesh"}, {"libgmsh", "Gmsh"},
+      {"libmpfr", "MPFR"},         {"libgmp", "GMP"},
+      {"libOSMesa", "OSMesa"},     {"libEGL", "EGL"},
+      {"libpng", "libpng"},        {"libOpenEXR", "OpenEXR"},
+      {"libfmt", "fmt"},           {"libtbb", "oneTBB"},
+      {"libcairo", "Cairo"},       {"libfontconfig", "Fontconfig"},
+      {"libglfw", "GLFW"},         {"libstb", "stb"},
+      {"libhwy", "Highway"},       {"libexpat", "expat"},
+      {"libcerf", "libcerf"},      {"libz.", "zlib"},
+      {"libbz2", "bzip2"}};
+  // The compiler's and the system's own, whose licences ask for nothing here.
+  const std::vector<std::string> own = {"libstdc++",  "libm.",  "libgcc_s", "libc.",   "ld-linux",
+                                        "libpthread", "libdl.", "libasan",  "libubsan"};
+  std::istringstream lines(read_text(list));
+  std::size_t seen = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t start = line.find('[');
+    if (line.find("NEEDED") == std::string::npos || start == std::string::npos) continue;
+    const std::string library = line.substr(start + 1);
+    const auto begins = [&](const std::string& name) { return library.starts_with(name); };
+    if (std::any_of(own.begin(), own.end(), begins)) continue;
+    ++seen;
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& name) { return begins(name.first); });
+    ASSERT_NE(found, names.end()) << library << " is new: --version must name its licence";
+    EXPECT_NE(version.find(found->second), std::string::npos) << library;
+  }
+  EXPECT_GE(seen, 15U);
 }
 
 }  // namespace
