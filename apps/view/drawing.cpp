@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -64,6 +65,18 @@ project::Camera framed(const mesh::TetMesh& mesh, const Framing& framing, double
                                                  framing.fov_degrees, aspect);
   camera.parallel = framing.parallel;
   return camera.parallel ? project::centered(camera, mesh.points) : camera;
+}
+
+/// Whether what the cpu projector keeps of one scene serves another one of the same mesh.
+bool can_update(const project::Scene& before, const project::Plan& plan_before,
+                const project::Scene& scene, const project::Plan& plan) {
+  const auto ways = [](const project::Plan& of) {
+    return std::tie(of.projector, of.sort, of.integrator, of.table_n, of.table_m, of.opaque_at,
+                    of.gradients);
+  };
+  return plan.projector == project::Projector::cpu && ways(plan) == ways(plan_before) &&
+         scene.mode == before.mode && scene.shading == before.shading &&
+         scene.gradient == before.gradient;
 }
 
 int coarse(int pixels, int coarseness) {
@@ -168,13 +181,17 @@ void Drawing::Work::select(const RenderArguments& arguments) {
 void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   if (scene_version_ == request.scene_version) return;
   const base::Stopwatch clock;
-  projector_.reset();
   scene_version_.reset();
   select(request.arguments);
   RenderArguments arguments = request.arguments;
   // To frame the mesh is a pass over its points.
   if (request.camera) static_cast<CameraArguments&>(arguments) = camera_arguments(*request.camera);
-  scene_ = make_scene(arguments, import_.mesh, field_->drawn);
+  project::Scene scene = make_scene(arguments, import_.mesh, field_->drawn);
+  project::Plan plan = make_plan(scene, request.arguments);
+  const bool updates = projector_ && can_update(scene_, plan_, scene, plan);
+  if (!updates) projector_.reset();
+  scene_ = std::move(scene);
+  plan_ = std::move(plan);
   first_camera_ = scene_.camera;
   samples_ = scene_.samples;
   auto facts = std::make_shared<SceneFacts>();
@@ -193,10 +210,13 @@ void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   facts->not_drawn = scene_.drawable.degenerate + scene_.drawable.nan;
   facts->notes = import_.report.notes;
   facts->time_step = mesh::noted_time_step(facts->notes);
-  plan_ = make_plan(scene_, request.arguments);
   facts->plan = plan_.reasons;
   const bool gl = plan_.projector == project::Projector::gl;
-  projector_.emplace(scene_, plan_, drawn.stats, gl ? context() : nullptr);
+  if (updates) {
+    projector_->update(drawn.stats);
+  } else {
+    projector_.emplace(scene_, plan_, drawn.stats, gl ? context() : nullptr);
+  }
   facts_ = std::move(facts);
   scene_version_ = request.scene_version;
   drawn.scene_ms = clock.milliseconds();
