@@ -160,6 +160,37 @@ TEST_F(FigureCommand, AnOrbitWritesNumberedFrames) {
             project::read_image(output_.file("a-0000.npy")).image.rgba);
 }
 
+// Steps of other values on one mesh: what is kept of the mesh changes no number.
+TEST_F(FigureCommand, TimeStepsOfOneMeshAreThoseOfEachAlone) {
+  int step = 0;
+  std::string sets;
+  for (const std::string expression : {"radius", "x + 2", "radius * radius"}) {
+    const std::string name = "step" + std::to_string(step) + ".vtu";
+    ASSERT_EQ(run_program("import " + sphere() + " --add-field 'hot=" + expression + "' -o " +
+                          output_.file(name))
+                  .status,
+              0);
+    sets += "<DataSet timestep=\"" + std::to_string(step++) + "\" file=\"" + name + "\"/>";
+  }
+  write_text(output_.file("run.pvd"), "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>" +
+                                          sets + "</Collection></VTKFile>");
+  const std::string fixed = "render " + output_.file("run.pvd") +
+                            " --field hot --size 40x30 --range 0.2:2.5 --opacity given --eye 4,3,2 "
+                            "--target 0,0,0 ";
+  for (const std::string options : {"", "--mode iso --isovalue 1 ", "--shading smooth "}) {
+    ASSERT_EQ(run_program(fixed + options + "--time all -o " + output_.file("f.npy")).status, 0);
+    for (const std::string number : {"0", "1", "2"}) {
+      ASSERT_EQ(
+          run_program(fixed + options + "--time index:" + number + " -o " + output_.file("i.npy"))
+              .status,
+          0);
+      EXPECT_EQ(project::read_image(output_.file("i.npy")).image.rgba,
+                project::read_image(output_.file("f-000" + number + ".npy")).image.rgba)
+          << options << number;
+    }
+  }
+}
+
 TEST_F(FigureCommand, AllTimeStepsShareColorsAndCamera) {
   const std::string base = "render " + file("times.pvd") + " --size 48x40 ";
   const ProgramRun run = run_program(base + "--time all -o " + output_.file("t.npy"));
