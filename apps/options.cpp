@@ -22,6 +22,22 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+double parse_whole(std::string_view text, std::string_view option, double least, double most) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole =
+      error == std::errc() && end == text.data() + text.size() && value == std::floor(value);
+  if (!whole || value < least) {
+    throw base::UsageError(
+        fmt::format("{} needs a whole number of at least {}, not '{}'", option, least, text));
+  }
+  if (value > most) {
+    throw base::UsageError(
+        fmt::format("{} can be no more than {:.0f}, and not '{}'", option, most, text));
+  }
+  return value;
+}
+
 }  // namespace
 
 double parse_number(std::string_view text, std::string_view option) {
@@ -36,20 +52,12 @@ double parse_number(std::string_view text, std::string_view option) {
 }
 
 int parse_count(std::string_view text, std::string_view option, int least) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole =
-      error == std::errc() && end == text.data() + text.size() && value == std::floor(value);
-  if (!whole || value < least) {
-    throw base::UsageError(
-        fmt::format("{} needs a whole number of at least {}, not '{}'", option, least, text));
-  }
-  constexpr int kMost = std::numeric_limits<int>::max();
-  if (value > kMost) {
-    throw base::UsageError(
-        fmt::format("{} can be no more than {}, and not '{}'", option, kMost, text));
-  }
-  return static_cast<int>(value);
+  return static_cast<int>(parse_whole(text, option, least, std::numeric_limits<int>::max()));
+}
+
+std::size_t parse_bytes(std::string_view text, std::string_view option) {
+  constexpr double kMost = 9007199254740992;  // 2^53: doubles hold all whole numbers up to it
+  return static_cast<std::size_t>(parse_whole(text, option, 1, kMost));
 }
 
 std::vector<double> parse_numbers(std::string_view text, std::string_view option, std::size_t least,

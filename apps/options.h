@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,9 @@ namespace tetraglass::apps {
 
 /// A whole number >= `least`, such as 1000000 or 1e6.
 [[nodiscard]] int parse_count(std::string_view text, std::string_view option, int least);
+
+/// A whole number of bytes >= 1, such as 500000000 or 5e8.
+[[nodiscard]] std::size_t parse_bytes(std::string_view text, std::string_view option);
 
 /// Between `least` and `most` numbers with commas between them.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view option,

@@ -315,6 +315,9 @@ void add_method_options(CLI::App* app, RenderArguments& a) {
                   "exact (default) | affine: what faces12 interpolates in perspective views");
   app->add_option("--target-format", a.target_format,
                   "rgba32f (default) | rgba16f | rgba8: what --projector gl accumulates in");
+  app->add_option("--gpu-memory", a.gpu_memory,
+                  "Most bytes of the mesh on the graphics card at once, such as 1e9; more of it is "
+                  "drawn part after part, for --projector gl. Default: as many as OpenGL can hold");
   add_slices_options(*app, a.slices);
 }
 

@@ -52,6 +52,7 @@ struct RenderArguments : CameraArguments {
   std::string minimum;
   std::string perspective;
   std::string target_format;
+  std::string gpu_memory;
   std::string shading;
   std::string gradient;
   std::string lights;

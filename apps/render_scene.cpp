@@ -183,6 +183,8 @@ project::GlRequest make_gl_request(const RenderArguments& arguments) {
                                                  {"rgba16f", TargetFormat::rgba16f},
                                                  {"rgba8", TargetFormat::rgba8}});
   }
+  if (!arguments.gpu_memory.empty())
+    request.memory = parse_bytes(arguments.gpu_memory, "--gpu-memory");
   return request;
 }
 

@@ -147,9 +147,12 @@ EffectPlan cells(const Census& census) {
     bytes = census.cells() * (32 + 4 + (of_points ? 0 : 4)) +
             census.points() * (32 + 16 + (of_points ? 4 : 0));
   } else if (census.is_gl() && has_faces12(census.plan().gl.layout)) {
-    bytes = census.cells() * (census.plan().gl.layout == Layout::faces12 ? 720 : 456);
+    bytes = census.cells() * faces12_bytes(census.plan().gl.layout);
   } else if (census.is_gl()) {
     bytes = all * (16 + (of_points ? 0 : 4)) + census.points() * 16;
+  }
+  if (census.is_gl() && census.plan().gl.memory > 0) {
+    bytes = std::min(*bytes, census.plan().gl.memory);
   }
   std::optional<double> ms;
   if (census.is_cpu()) {

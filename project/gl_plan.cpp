@@ -58,6 +58,7 @@ GlPlan plan_gl(const Scene& scene, const GlRequest& request, std::vector<std::st
   plan.minimum = request.minimum.value_or(plan.minimum);
   plan.interpolate_lengths = request.interpolate_lengths.value_or(plan.interpolate_lengths);
   plan.target = request.target.value_or(plan.target);
+  plan.memory = request.memory.value_or(plan.memory);
   check_faces12(scene, request, plan);
   if (plan.target == TargetFormat::rgba8 && !accumulates_colors(scene)) {
     throw base::UsageError("--target-format rgba8 holds numbers from 0 to 1 only, and mode " +
@@ -76,6 +77,12 @@ GlPlan plan_gl(const Scene& scene, const GlRequest& request, std::vector<std::st
   }
   reasons.push_back("target: " + to_string(plan.target) +
                     (plan.target == TargetFormat::rgba32f ? "" : ", rounded at every cell"));
+  if (plan.memory > 0) {
+    reasons.push_back(
+        fmt::format("memory: {} bytes of the mesh on the context at once; more of it is drawn in "
+                    "parts, in the order of its cells",
+                    plan.memory));
+  }
   plan.position_rounding = position_rounding(scene);
   if (plan.position_rounding > kLargestPositionRounding) {
     reasons.push_back(
@@ -88,7 +95,7 @@ GlPlan plan_gl(const Scene& scene, const GlRequest& request, std::vector<std::st
 
 bool is_any_set(const GlRequest& request) {
   return request.layout || request.edge_fix || request.minimum || request.interpolate_lengths ||
-         request.target;
+         request.target || request.memory;
 }
 
 std::string to_string(Layout layout) {

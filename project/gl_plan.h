@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct GlRequest {
   std::optional<Minimum> minimum;
   std::optional<bool> interpolate_lengths;
   std::optional<TargetFormat> target;
+  std::optional<std::size_t> memory;
 };
 
 /// The part of a plan that only the gl projector knows.
@@ -38,6 +40,9 @@ struct GlPlan {
   Minimum minimum = Minimum::shader;  ///< faces12
   bool interpolate_lengths = false;   ///< faces12: the paper's parameters, wrong in perspective
   TargetFormat target = TargetFormat::rgba32f;
+  /// Most bytes that the mesh takes on the context at once; larger ones are drawn part after part.
+  /// 0: as much as OpenGL can hold.
+  std::size_t memory = 0;
   /// What positions in the picture are rounded to, in pixels: vertices are floats of half the
   /// mesh's diagonal. Beyond kLargestPositionRounding cells fall apart, and plan tells so.
   double position_rounding = 0;
@@ -57,6 +62,11 @@ inline constexpr double kLargestPositionRounding = 0.25;
 /// Whether the layout has 12 vertices a cell.
 [[nodiscard]] constexpr bool has_faces12(Layout layout) {
   return layout == Layout::faces12 || layout == Layout::faces12_short;
+}
+
+/// What a cell takes of those with 12 vertices.
+[[nodiscard]] constexpr std::size_t faces12_bytes(Layout layout) {
+  return layout == Layout::faces12 ? 720 : 456;
 }
 
 [[nodiscard]] std::string to_string(Layout layout);

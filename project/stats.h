@@ -24,6 +24,7 @@ struct Stats {
   std::string sort_method = "none";
   bool sort_exact = true;  ///< true also where the mode needs no order
   std::uint64_t cycles = 0;
+  std::size_t parts = 1;         ///< in which the mesh was drawn one after the other (gl)
   std::string context = "none";  ///< "osmesa: <renderer string>" or "none"
   int threads = 1;
   /// Of the effects that something was stored or computed for; those of slices, grids and the

@@ -47,14 +47,20 @@ class CellLayout {
   virtual void set_order(const std::vector<std::uint32_t>& cells) = 0;
 
   /// Draws all cells with the program in use.
-  virtual void draw() const = 0;
+  virtual void draw() = 0;
 
-  /// What is kept, on the context and beside it.
+  /// As how many parts, one after the other, `draw` put the cells on the context. 1: all of them
+  /// stay there.
+  [[nodiscard]] virtual std::size_t parts() const = 0;
+
+  /// What is kept, on the context and beside it; of parts the most at once so far.
   [[nodiscard]] virtual LayoutBytes bytes() const = 0;
 };
 
-/// Lays out the cells `drawn` of the scene (in the order of the mesh) as the plan has it. Throws
-/// UnavailableError where they do not fit.
+/// Lays out the cells `drawn` of the scene (in the order of the mesh) as the plan has it: in parts
+/// where they are more than the context or the plan's memory holds. Refers to the context, the
+/// scene and the normalization, which outlive it. Throws UnavailableError where not even one cell
+/// fits.
 [[nodiscard]] std::unique_ptr<CellLayout> make_cell_layout(const Context& context,
                                                            const Scene& scene, const Plan& plan,
                                                            const Normalization& normalization,

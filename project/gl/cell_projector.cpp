@@ -29,9 +29,7 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       lights_(context, scene, plan),
       counter_(context) {
-  const LayoutBytes bytes = cells_->bytes();
-  stats.add(Effect::cells, bytes.cells);
-  if (bytes.gradients > 0) stats.add(Effect::gradients, bytes.gradients);
+  add_cell_bytes(stats);
   make_tables(stats);
   if (reads_medium(scene, plan)) {
     medium_.emplace(context, scene.transfer_function, normalization_);
@@ -41,6 +39,12 @@ CellProjector::CellProjector(const Context& context, const Scene& scene, const P
     surfaces_.emplace(context, Texel::rgba32f);
     surfaces_->upload(surface_texels(scene, normalization_), "isosurfaces");
   }
+}
+
+void CellProjector::add_cell_bytes(Stats& stats) const {
+  const LayoutBytes bytes = cells_->bytes();
+  stats.add(Effect::cells, bytes.cells);
+  if (bytes.gradients > 0) stats.add(Effect::gradients, bytes.gradients);
 }
 
 void CellProjector::make_tables(Stats& stats) {
@@ -264,6 +268,9 @@ Image CellProjector::draw(const Frame& frame, Stats& stats) {
     stats.add(Effect::opaque, opaque.bytes(), layering.milliseconds());
     image = opaque.compose([&](RayEnds ends) { return draw_rays(frame, view, ends, stats); });
   }
+  stats.parts = cells_->parts();
+  if (!cells_told_ && stats.parts > 1) add_cell_bytes(stats);
+  cells_told_ = true;
   stats.add(Effect::segments, 0, clock.milliseconds());
   stats.project_ms += clock.milliseconds();
   return image;

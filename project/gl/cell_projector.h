@@ -44,6 +44,7 @@ class CellProjector {
  private:
   /// `pass`: a `#define` of FragmentLists, or empty.
   [[nodiscard]] const Program& program(bool parallel, const std::string& pass = "");
+  void add_cell_bytes(Stats& stats) const;
   void make_tables(Stats& stats);
   /// Whether the cells are in exact order, or need none.
   bool order_cells(const Frame& frame, Stats& stats);
@@ -70,7 +71,8 @@ class CellProjector {
   std::optional<TextureBuffer> surfaces_;
   LightTexels lights_;
   std::optional<Table> table_;
-  float table_length_ = 1;  // in normalized units
+  bool cells_told_ = false;  // of cells in parts, by the first frame
+  float table_length_ = 1;   // in normalized units
   FragmentCounter counter_;
   std::map<std::string, Program> programs_;  // by the purpose that they were made for
   bool by_fragments_ = false;                // the frame

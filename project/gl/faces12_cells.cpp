@@ -5,11 +5,13 @@
 #include <limits>
 #include <type_traits>
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include "base/errors.h"
+#include "project/gl/functions.inl"
 #include "project/gl/mesh_buffers.h"
 #include "project/gl/switches.h"
 
@@ -199,48 +201,68 @@ Table minimum_texture(const Context& context, Minimum minimum) {
           true};
 }
 
+std::size_t cells_at_once(const GlPlan& plan) {
+  constexpr std::size_t kMost = std::numeric_limits<int>::max() / kVertices;
+  if (plan.memory == 0) return kMost;
+  const std::size_t bytes = faces12_bytes(plan.layout);
+  if (plan.memory < bytes) {
+    throw base::UnavailableError(
+        fmt::format("a cell takes {} bytes and {} are given: use --gpu-memory with more of them",
+                    bytes, plan.memory));
+  }
+  return std::min(kMost, plan.memory / bytes);
+}
+
 }  // namespace
 
 Faces12Cells::Faces12Cells(const Context& context, const Scene& scene, const Plan& plan,
                            const Normalization& normalization,
                            const std::vector<std::uint32_t>& drawn)
-    : plan_(plan.gl),
+    : context_(context),
+      scene_(scene),
+      normalization_(normalization),
+      plan_(plan.gl),
       needs_depth_(draws_opaque_surfaces(scene) || !scene.clip.empty() || !scene.opaque.empty() ||
                    scene.depth_cue || is_lit_medium(scene) || plan.sort == SortMethod::fragments),
       count_(drawn.size()),
+      at_once_(cells_at_once(plan.gl)),
       arrays_(context) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max() / kVertices;
-  if (count_ > kMost) {
-    throw base::UnavailableError("the mesh has more cells than --layout " +
-                                 to_string(plan_.layout) + " can number (" + std::to_string(kMost) +
-                                 "); use --layout indexed");
-  }
-  if (plan_.layout == Layout::faces12) {
-    upload<float>(scene, normalization, drawn);
-  } else {
-    scale_ = short_scale(scene, normalization, drawn);
-    upload<std::int16_t>(scene, normalization, drawn);
-  }
+  if (plan_.layout == Layout::faces12_short) scale_ = short_scale(scene, normalization, drawn);
   if (plan_.minimum != Minimum::shader) minima_.emplace(minimum_texture(context, plan_.minimum));
+  if (count_ > at_once_) {
+    cells_ = drawn;
+    return;
+  }
+  load(drawn);
   if (!sorts_cells(plan)) return;
   place_.resize(scene.mesh->cells.size());
   for (std::size_t k = 0; k < count_; ++k) place_[drawn[k]] = static_cast<std::uint32_t>(k);
 }
 
+void Faces12Cells::load(std::span<const std::uint32_t> cells) {
+  arrays_ = VertexArrays(context_);
+  if (plan_.layout == Layout::faces12) {
+    upload<float>(cells);
+  } else {
+    upload<std::int16_t>(cells);
+  }
+}
+
 template <class Number>
-void Faces12Cells::upload(const Scene& scene, const Normalization& normalization,
-                          const std::vector<std::uint32_t>& drawn) {
-  Arrays<Number> arrays(count_);
-  const bool point_field = scene.field.location == mesh::Location::point;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count_, kGrain), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k != range.end(); ++k) {
-      arrays.set(k, placed(scene, normalization, drawn[k]), point_field, scale_);
-    }
-  });
-  bytes_ += arrays_.add(0, arrays.positions);
-  bytes_ += arrays_.add(1, arrays.values);
-  bytes_ += arrays_.add(2, arrays.normals);
-  bytes_ += arrays_.add(3, arrays.adjacent);
+void Faces12Cells::upload(std::span<const std::uint32_t> cells) {
+  Arrays<Number> arrays(cells.size());
+  const bool point_field = scene_.field.location == mesh::Location::point;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, cells.size(), kGrain), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+          arrays.set(k, placed(scene_, normalization_, cells[k]), point_field, scale_);
+        }
+      });
+  std::size_t bytes = arrays_.add(0, arrays.positions);
+  bytes += arrays_.add(1, arrays.values);
+  bytes += arrays_.add(2, arrays.normals);
+  bytes += arrays_.add(3, arrays.adjacent);
+  bytes_ = std::max(bytes_, bytes);
 }
 
 std::vector<std::string> Faces12Cells::switches() const {
@@ -258,18 +280,33 @@ void Faces12Cells::set_uniforms(const Program& program) const {
 }
 
 void Faces12Cells::set_order(const std::vector<std::uint32_t>& cells) {
+  if (count_ > at_once_) {
+    cells_ = cells;
+    return;
+  }
   firsts_.resize(cells.size());
   for (std::size_t k = 0; k < cells.size(); ++k) {
     firsts_[k] = static_cast<int>(kVertices * place_[cells[k]]);
   }
 }
 
-void Faces12Cells::draw() const {
+std::size_t Faces12Cells::parts() const {
+  return std::max<std::size_t>(1, (count_ + at_once_ - 1) / at_once_);
+}
+
+void Faces12Cells::draw() {
   if (minima_) minima_->bind(Units::kMinima);
-  if (firsts_.empty()) {
+  if (count_ <= at_once_ && firsts_.empty()) {
     arrays_.draw(kVertices * count_);
-  } else {
+  } else if (count_ <= at_once_) {
     arrays_.draw_runs(firsts_, static_cast<int>(kVertices));
+  }
+  for (std::size_t first = 0; first < cells_.size(); first += at_once_) {
+    const std::size_t count = std::min(at_once_, cells_.size() - first);
+    // What is still drawn from would be kept beside what takes its place.
+    context_.gl().Finish();
+    load(std::span(cells_).subspan(first, count));
+    arrays_.draw(kVertices * count);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -20,11 +22,12 @@ namespace tetraglass::project::gl {
 ///
 /// Numbers are floats, 720 bytes a cell, or (`faces12_short`) 16-bit but for the first array, 456
 /// bytes a cell. One draw call unsorted; sorted one pair (first vertex, number of vertices) a cell.
-/// A cell too thin for floats to have a volume is left out (its segments are thinner than their
-/// rounding).
+/// Cells that do not fit are drawn in parts, in their order, each put on the context in place of
+/// the one before. A cell too thin for floats to have a volume is left out (its segments are
+/// thinner than their rounding).
 class Faces12Cells final : public CellLayout {
  public:
-  /// Throws UnavailableError where the arrays do not fit.
+  /// Throws UnavailableError where not even one cell fits.
   Faces12Cells(const Context& context, const Scene& scene, const Plan& plan,
                const Normalization& normalization, const std::vector<std::uint32_t>& drawn);
 
@@ -33,25 +36,32 @@ class Faces12Cells final : public CellLayout {
   void set_uniforms(const Program& program) const override;
   [[nodiscard]] bool draws_front_faces() const override { return true; }
   void set_order(const std::vector<std::uint32_t>& cells) override;
-  void draw() const override;
+  void draw() override;
+  [[nodiscard]] std::size_t parts() const override;
   [[nodiscard]] LayoutBytes bytes() const override {
     return {bytes_, sizeof(std::uint32_t) * place_.size() + sizeof(int) * firsts_.size(), 0};
   }
 
  private:
+  /// In place of what was there.
+  void load(std::span<const std::uint32_t> cells);
   template <class Number>
-  void upload(const Scene& scene, const Normalization& normalization,
-              const std::vector<std::uint32_t>& drawn);
+  void upload(std::span<const std::uint32_t> cells);
 
+  const Context& context_;
+  const Scene& scene_;
+  const Normalization& normalization_;
   GlPlan plan_;
   bool needs_depth_;  // where on the ray a segment lies matters
   std::size_t count_;
+  std::size_t at_once_;  // so many cells
   std::size_t bytes_ = 0;
   VertexArrays arrays_;
   std::optional<Table> minima_;
   Eigen::Vector4f scale_ = Eigen::Vector4f::Ones();  // of values, gradients, normals, edges
   std::vector<std::uint32_t> place_;                 // of a cell of the mesh among those drawn
-  std::vector<int> firsts_;  // vertices, in the order to draw; none: one run
+  std::vector<int> firsts_;           // vertices, in the order to draw; none: one run
+  std::vector<std::uint32_t> cells_;  // in the order to draw, where they are drawn in parts
 };
 
 }  // namespace tetraglass::project::gl

@@ -12,6 +12,11 @@ namespace tetraglass::project::gl {
 /// section 8).
 class IndexedCells final : public CellLayout {
  public:
+  /// Whether the mesh, `drawn` cells of which are to be drawn, fits as a whole.
+  [[nodiscard]] static bool fit(const PartLimits& limits, const Scene& scene, const Plan& plan,
+                                std::size_t drawn);
+
+  /// Throws UnavailableError where it does not.
   IndexedCells(const Context& context, const Scene& scene, const Plan& plan,
                const Normalization& normalization, const std::vector<std::uint32_t>& drawn);
 
@@ -20,7 +25,8 @@ class IndexedCells final : public CellLayout {
   void set_uniforms(const Program& program) const override;
   [[nodiscard]] bool draws_front_faces() const override { return false; }
   void set_order(const std::vector<std::uint32_t>& cells) override;
-  void draw() const override;
+  void draw() override;
+  [[nodiscard]] std::size_t parts() const override { return 1; }
   [[nodiscard]] LayoutBytes bytes() const override;
 
  private:

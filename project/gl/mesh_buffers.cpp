@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "base/errors.h"
 #include "mesh/gradients.h"
 #include "mesh/predicates.h"
 
@@ -26,45 +24,41 @@ void for_all(std::size_t count, const F& f) {
   });
 }
 
-std::vector<mesh::Cell> sorted_cells(const mesh::TetMesh& mesh) {
-  std::vector<mesh::Cell> result(mesh.cells.size());
-  for_all(result.size(), [&](std::size_t i) {
-    mesh::Cell cell = mesh.cells[i];
-    std::sort(cell.begin(), cell.end());
-    const auto point = [&](std::size_t k) -> const Eigen::Vector3d& {
-      return mesh.points[cell[k]];
-    };
-    const bool finite = point(0).allFinite() && point(1).allFinite() && point(2).allFinite() &&
-                        point(3).allFinite();
-    if (finite && mesh::orientation(point(0), point(1), point(2), point(3)) < 0) {
-      cell[3] |= kNegative;
-    }
-    result[i] = cell;
-  });
+// Its vertices in ascending order, the last with the sign.
+mesh::Cell sorted_cell(const mesh::TetMesh& mesh, std::size_t index) {
+  mesh::Cell cell = mesh.cells[index];
+  std::sort(cell.begin(), cell.end());
+  const auto point = [&](std::size_t k) -> const Eigen::Vector3d& { return mesh.points[cell[k]]; };
+  const bool finite =
+      point(0).allFinite() && point(1).allFinite() && point(2).allFinite() && point(3).allFinite();
+  if (finite && mesh::orientation(point(0), point(1), point(2), point(3)) < 0) {
+    cell[3] |= kNegative;
+  }
+  return cell;
+}
+
+// Position and value. What is not finite belongs to cells that are not drawn.
+Eigen::Vector4f placed_vertex(const Scene& scene, const Normalization& normalization,
+                              std::size_t i) {
+  Eigen::Vector4f result = Eigen::Vector4f::Zero();
+  const Eigen::Vector3d& point = scene.mesh->points[i];
+  if (point.allFinite()) result.head<3>() = normalization.point(point);
+  if (scene.field.location == mesh::Location::point && std::isfinite(scene.field.values[i])) {
+    result.w() = normalization.value(scene.field.values[i]);
+  }
   return result;
 }
 
-// Position and value of each vertex. What is not finite belongs to cells that are not drawn.
-std::vector<Eigen::Vector4f> placed_vertices(const Scene& scene,
-                                             const Normalization& normalization) {
-  const mesh::TetMesh& mesh = *scene.mesh;
-  const bool values = scene.field.location == mesh::Location::point;
-  std::vector<Eigen::Vector4f> result(mesh.points.size(), Eigen::Vector4f::Zero());
-  for_all(result.size(), [&](std::size_t i) {
-    if (mesh.points[i].allFinite()) result[i].head<3>() = normalization.point(mesh.points[i]);
-    if (values && std::isfinite(scene.field.values[i])) {
-      result[i].w() = normalization.value(scene.field.values[i]);
-    }
-  });
-  return result;
+float cell_value(const Scene& scene, const Normalization& normalization, std::size_t i) {
+  const double value = scene.field.values[i];
+  return std::isfinite(value) ? normalization.value(value) : 0.0F;
 }
 
-std::vector<float> normalized_values(const mesh::ScalarField& field,
-                                     const Normalization& normalization) {
-  std::vector<float> result(field.values.size(), 0.0F);
-  for_all(result.size(), [&](std::size_t i) {
-    if (std::isfinite(field.values[i])) result[i] = normalization.value(field.values[i]);
-  });
+// f(i) for 0 <= i < count.
+template <class F>
+auto made(std::size_t count, const F& f) {
+  std::vector<decltype(f(std::size_t{0}))> result(count);
+  for_all(count, [&](std::size_t i) { result[i] = f(i); });
   return result;
 }
 
@@ -85,25 +79,84 @@ std::vector<Eigen::Vector4f> vertex_gradients(const Scene& scene) {
 
 }  // namespace
 
+bool needs_vertex_gradients(const Scene& scene, const Plan& plan) {
+  return plan.gradients && !has_cell_normals(scene);
+}
+
+void set_mesh_units(const Program& program) {
+  program.set("cells", Units::kCells);
+  program.set("vertices", Units::kVertices);
+  program.set("cell_values", Units::kCellValues);
+  program.set("gradients", Units::kGradients);
+}
+
 MeshBuffers::MeshBuffers(const Context& context, const Scene& scene,
                          const Normalization& normalization, bool gradients)
-    : cells_(context, Texel::rgba32ui), vertices_(context, Texel::rgba32f) {
-  // The largest id has to leave the top bit free, and vertices are numbered 4 per cell in an int.
-  const std::size_t most = std::min<std::size_t>(context.limits().texture_buffer_texels,
-                                                 std::numeric_limits<std::int32_t>::max() / 4);
-  if (scene.mesh->cells.size() > most || scene.mesh->points.size() > most) {
-    throw base::UnavailableError("the mesh has more cells or points than this OpenGL can hold (" +
-                                 std::to_string(most) + "); use another --projector");
-  }
-  cells_.upload(sorted_cells(*scene.mesh), "cells");
-  vertices_.upload(placed_vertices(scene, normalization), "points");
-  if (scene.field.location == mesh::Location::cell) {
-    cell_values_.emplace(context, Texel::r32f);
-    cell_values_->upload(normalized_values(scene.field, normalization), "cell values");
-  }
+    : scene_(scene),
+      normalization_(normalization),
+      cells_(context, Texel::rgba32ui),
+      vertices_(context, Texel::rgba32f) {
+  if (scene.field.location == mesh::Location::cell) cell_values_.emplace(context, Texel::r32f);
   if (gradients) {
     gradients_.emplace(context, Texel::rgba32f);
-    gradients_->upload(vertex_gradients(scene), "gradients");
+    vertex_gradients_ = vertex_gradients(scene);
+  }
+}
+
+std::size_t MeshBuffers::cell_bytes(const Scene& scene) {
+  return texel_bytes(Texel::rgba32ui) +
+         (scene.field.location == mesh::Location::cell ? texel_bytes(Texel::r32f) : 0);
+}
+
+std::size_t MeshBuffers::point_bytes(bool gradients) {
+  return texel_bytes(Texel::rgba32f) * (gradients ? 2 : 1);
+}
+
+void MeshBuffers::load() {
+  const mesh::TetMesh& mesh = *scene_.mesh;
+  cells_.upload(made(mesh.cells.size(), [&](std::size_t i) { return sorted_cell(mesh, i); }),
+                "cells");
+  vertices_.upload(made(mesh.points.size(),
+                        [&](std::size_t i) { return placed_vertex(scene_, normalization_, i); }),
+                   "points");
+  if (cell_values_) {
+    cell_values_->upload(made(mesh.cells.size(),
+                              [&](std::size_t i) { return cell_value(scene_, normalization_, i); }),
+                         "cell values");
+  }
+  if (gradients_) {
+    gradients_->upload(vertex_gradients_, "gradients");
+    vertex_gradients_ = {};
+  }
+}
+
+void MeshBuffers::load(std::span<const std::uint32_t> cells, const CellCutter& cutter) {
+  const mesh::TetMesh& mesh = *scene_.mesh;
+  const std::vector<std::uint32_t>& points = cutter.points();
+  // The points keep their order: nothing is computed otherwise than for the whole mesh.
+  const auto renumbered = [&](std::size_t k) {
+    mesh::Cell cell = sorted_cell(mesh, cells[k]);
+    const std::uint32_t sign = cell[3] & kNegative;
+    cell[3] &= ~kNegative;
+    for (std::uint32_t& point : cell) point = cutter.place(point);
+    cell[3] |= sign;
+    return cell;
+  };
+  cells_.upload(made(cells.size(), renumbered), "cells");
+  vertices_.upload(
+      made(points.size(),
+           [&](std::size_t i) { return placed_vertex(scene_, normalization_, points[i]); }),
+      "points");
+  if (cell_values_) {
+    cell_values_->upload(
+        made(cells.size(),
+             [&](std::size_t k) { return cell_value(scene_, normalization_, cells[k]); }),
+        "cell values");
+  }
+  if (gradients_) {
+    gradients_->upload(
+        made(points.size(), [&](std::size_t i) { return vertex_gradients_[points[i]]; }),
+        "gradients");
   }
 }
 
