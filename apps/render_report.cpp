@@ -78,9 +78,10 @@ std::string stats_json(const project::Scene& scene, const project::Plan& plan,
 std::string stage_lines(const RenderReport& report) {
   return fmt::format(
       "read {:.0f} ms, decompose {:.0f} ms, tables {:.0f} ms, sort {:.1f} ms, project {:.0f} ms, "
-      "write {:.0f} ms; {} fragments",
+      "write {:.0f} ms; {} fragments{}",
       report.import.read_ms, report.import.decompose_ms, report.stats.tables_ms,
-      report.stats.sort_ms, report.stats.project_ms, report.write_ms, report.stats.fragments);
+      report.stats.sort_ms, report.stats.project_ms, report.write_ms, report.stats.fragments,
+      report.stats.parts > 1 ? fmt::format(", mesh in {} parts", report.stats.parts) : "");
 }
 
 }  // namespace tetraglass::apps

@@ -339,10 +339,12 @@ std::vector<double> OpaqueLayers::all(double end) const {
 }
 
 std::vector<double> OpaqueLayers::solid_ends() const {
-  std::vector<double> ends = all(kInfinity);
+  std::vector<double> ends;
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const OpaqueFragment& last = covering(i).back();
-    if (last.coverage >= 1) ends[pixels_[i]] = last.depth;
+    if (last.coverage < 1) continue;
+    if (ends.empty()) ends = all(kInfinity);
+    ends[pixels_[i]] = last.depth;
   }
   return ends;
 }

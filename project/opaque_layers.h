@@ -48,7 +48,8 @@ class OpaqueLayers {
   /// The most fragments of a pixel that are not solid.
   [[nodiscard]] std::size_t partial_layers() const { return partial_layers_; }
 
-  /// Where rays end that go as far as there is volume to see: at the solid fragment.
+  /// Where rays end that go as far as there is volume to see: at the solid fragment. Empty where
+  /// there is none.
   [[nodiscard]] std::vector<double> solid_ends() const;
 
   /// Where rays end at their fragment number `layer` that is not solid; pixels that have none are

@@ -181,9 +181,6 @@ bool surfaces_met(Segment seg, vec2 position, out vec4 color) {
 
 void main() {
   vec2 position = gl_FragCoord.xy + tile_corner;
-#ifdef RAY_ENDS
-  if (ray_end() <= kNotWanted) discard;
-#endif
   Segment seg;
   if (!segment(position, seg)) discard;
 #ifdef CLIPPED

@@ -138,14 +138,11 @@ void CellProjector::bind() const {
 void CellProjector::set_blending() const {
   const Functions& gl = context_.gl();
   const bool opaque = draws_opaque_surfaces(scene_);
-  if (opaque) {
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LESS);
-    gl.Disable(GL_BLEND);
-  } else {
-    gl.Disable(GL_DEPTH_TEST);
-    gl.Enable(GL_BLEND);
-  }
+  (opaque ? gl.Disable : gl.Enable)(GL_BLEND);
+  // Cells have the depth 1/2 where surfaces do not tell theirs.
+  (opaque || !ends_.empty() ? gl.Enable : gl.Disable)(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LESS);
+  gl.DepthMask(opaque ? GL_TRUE : GL_FALSE);
   const bool over = scene_.mode == Mode::full || scene_.mode == Mode::iso;
   gl.BlendEquation(scene_.mode == Mode::mip ? GL_MAX : GL_FUNC_ADD);
   gl.BlendFunc(GL_ONE, over ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
@@ -184,6 +181,7 @@ void CellProjector::draw_fragments(bool parallel, const ViewUniforms& view, cons
 void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Tile& tile,
                               const Target& target, Image& image, Stats& stats) {
   target.begin(empty_pixel(scene_), tile.width, tile.height);
+  if (!ends_.empty()) target.set_depths(unwanted_, tile.width, tile.height);
   set_blending();
   if (by_fragments_) {
     draw_fragments(parallel, view, tile, stats);
@@ -202,20 +200,23 @@ void CellProjector::draw_tile(bool parallel, const ViewUniforms& view, const Til
 bool CellProjector::place_ends(const Frame& frame, const ViewUniforms& view, const Tile& tile) {
   tile_ends_.reset();
   if (ends_.empty()) return true;
-  constexpr double kFar = 1e30;  // see kNotWanted of clip.glsl
+  constexpr double kFar = 1e30;
   std::vector<float> depths;
-  bool wanted = false;
+  unwanted_.clear();
+  bool any = false;
   for (int y = tile.y; y < tile.y + tile.height; ++y) {
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const double end =
           ends_[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
                 static_cast<std::size_t>(x)];
-      wanted = wanted || end > -std::numeric_limits<double>::infinity();
+      const bool wanted = end > -std::numeric_limits<double>::infinity();
+      any = any || wanted;
+      unwanted_.push_back(wanted ? 1.0F : 0.0F);
       depths.push_back(
           static_cast<float>(std::clamp(end / normalization_.radius - view.focus(), -kFar, kFar)));
     }
   }
-  if (!wanted) return false;
+  if (!any) return false;
   tile_ends_.emplace(context_, Texel::r32f, std::array<int, 3>{tile.width, tile.height, 0}, depths,
                      false);
   tile_ends_->bind(Units::kRayEnds);
@@ -230,7 +231,7 @@ Image CellProjector::draw_rays(const Frame& frame, const ViewUniforms& view, Ray
   const int width = std::min(frame.width(), largest_tile_);
   const int height = std::min(frame.height(), largest_tile_);
   const Target target(context_, target_texel(scene_, plan_.gl.target),
-                      draws_opaque_surfaces(scene_), width, height);
+                      draws_opaque_surfaces(scene_) || !ends.empty(), width, height);
   bind();
   lights_.place(frame, view, normalization_.radius);
   if (scene_.lights) stats.add(Effect::lights, lights_.bytes());

@@ -78,6 +78,8 @@ class CellProjector {
   bool by_fragments_ = false;                // the frame
   RayEnds ends_;                             // of the frame's rays, while they are drawn
   std::optional<Table> tile_ends_;
+  std::vector<float>
+      unwanted_;  // depths of the tile's pixels that keep the others from being drawn
   std::optional<FragmentLists> lists_;
   std::optional<sort::CellSorter> sorter_;
 };

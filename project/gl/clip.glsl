@@ -6,11 +6,6 @@
 #endif
 #ifdef RAY_ENDS
 uniform sampler2D ray_ends;  // z - focus, of each pixel of the tile
-
-// Below every depth: the pixel is not wanted.
-const float kNotWanted = -1e30;
-
-float ray_end() { return texelFetch(ray_ends, ivec2(gl_FragCoord.xy), 0).r; }
 #endif
 
 // Nothing is left: false.
@@ -21,7 +16,7 @@ bool clip(vec2 position, inout Segment seg) {
   if (!clip_range(position, near, far)) return false;
 #endif
 #ifdef RAY_ENDS
-  far = min(far, ray_end());
+  far = min(far, texelFetch(ray_ends, ivec2(gl_FragCoord.xy), 0).r);
   if (!(near < far)) return false;
 #endif
   if (near == seg.entry && far == seg.exit) return true;

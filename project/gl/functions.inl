@@ -37,6 +37,7 @@
   X(DeleteTextures)             \
   X(DeleteVertexArrays)         \
   X(DepthFunc)                  \
+  X(DepthMask)                  \
   X(Disable)                    \
   X(DrawArrays)                 \
   X(DrawElementsBaseVertex)     \

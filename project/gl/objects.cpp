@@ -219,7 +219,14 @@ void Target::begin(float value, int width, int height) const {
   const GLfloat color[4] = {value, value, value, value};
   gl.ClearNamedFramebufferfv(framebuffer_.get(), GL_COLOR, 0, color);
   const GLfloat farthest = 1;
-  if (depth_texture_) gl.ClearNamedFramebufferfv(framebuffer_.get(), GL_DEPTH, 0, &farthest);
+  if (!depth_texture_) return;
+  gl.DepthMask(GL_TRUE);
+  gl.ClearNamedFramebufferfv(framebuffer_.get(), GL_DEPTH, 0, &farthest);
+}
+
+void Target::set_depths(std::span<const float> depths, int width, int height) const {
+  framebuffer_.context().gl().TextureSubImage2D(depth_texture_->get(), 0, 0, 0, width, height,
+                                                GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
 void Target::read(int width, int height, float* pixels, int stride) const {

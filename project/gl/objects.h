@@ -140,6 +140,9 @@ class Target {
   /// width x height from now on.
   void begin(float value, int width, int height) const;
 
+  /// Sets the depths of the lower left width x height, row by row. The target has depth.
+  void set_depths(std::span<const float> depths, int width, int height) const;
+
   /// Reads the lower left width x height, rows from the bottom, `stride` pixels from one row to the
   /// next. One float per component.
   void read(int width, int height, float* pixels, int stride) const;

@@ -89,7 +89,7 @@ class GlPartsTest : public testing::TestWithParam<Layout> {
                                        {0.2, {0.2, 1.0, 0.3}, 2.0},
                                        {0.5, {1.0, 0.3, 0.1}, 0.5},
                                        {2.0, {1.0, 0.9, 0.2}, 5.0}});
-    Scene result = tests::make_scene(bricks(), wanted.mode, tf, 64);
+    Scene result = tests::make_scene(bricks(), wanted.mode, tf, 48);
     result.shading = wanted.shading;
     result.gradient = has_faces12(GetParam()) ? GradientOf::cell : GradientOf::vertex;
     if (wanted.mode == Mode::iso) {
@@ -156,7 +156,8 @@ TEST_P(GlPartsTest, SevenPartsMakeThePictureOfTheWhole) {
     Stats whole;
     const Image expected = draw(drawn, wanted, {}, whole);
     EXPECT_EQ(whole.parts, 1U);
-    const std::size_t limit = held(whole) / 7;
+    // Of a mesh on the context as a whole, half is never drawn where surfaces are.
+    const std::size_t limit = held(whole) / (wanted.mode == Mode::iso ? 14 : 7);
     Stats parted;
     const Image image = draw(drawn, wanted, limit, parted);
     EXPECT_GE(parted.parts, 7U);
