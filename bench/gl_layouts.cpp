@@ -1,6 +1,6 @@
-// The layouts of project/gl side by side: what each costs (the data sets and columns of weiler2002,
-// Tables 1 to 3) and how wrong its pictures are. Prints Markdown.
-//   gl_layouts [FRAMES] [osmesa|egl] [costs|errors]
+// The layouts of project/gl side by side: what each costs, unsorted and sorted (the data sets and
+// columns of weiler2002, Tables 1 to 3), and how wrong its pictures are. Prints Markdown.
+//   gl_layouts [FRAMES] [osmesa|egl] [costs|errors]        (scripts/gl-layouts calls it)
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,9 @@ project::Plan plan_of(const project::Scene& scene, const GlRequest& request,
   all.projector = project::Projector::gl;
   all.context = context;
   all.gl = request;
-  // As in the paper: a two-dimensional table of the emission.
+  // As in the paper: a two-dimensional table of the emission, unsorted; sorted, mode full by the
+  // exact order and the exact integral, but for cells in rings.
+  if (scene.mode == Mode::full) all.sort = project::SortMethod::mpvo;
   if (scene.mode == Mode::emission) all.integrator = project::Integrator::table2d;
   return project::plan(scene, all);
 }
@@ -134,10 +136,42 @@ void print_published(const Data& data) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const int bytes_per_cell = i == 0 ? 720 : 456;
     const Published& row = data.published[i];
-    fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} |\n", data.name, tables[i],
+    fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} | | | |\n", data.name, tables[i],
                data.published_cells, 1e-6 * bytes_per_cell * data.published_cells, row.frames_per_s,
                row.kilocells_per_s, row.megabytes_per_s);
   }
+}
+
+/// Median time of a frame, in seconds, sorting included, of each variant; and its megabytes.
+struct Cost {
+  double seconds = 0;
+  double megabytes = 0;
+};
+
+std::vector<Cost> costs(const project::Scene& scene, const std::vector<Variant>& variants,
+                        project::ContextKind kind, int frames) {
+  const std::unique_ptr<project::gl::Context> context = project::gl::Context::create(kind);
+  std::vector<std::unique_ptr<project::gl::CellProjector>> projectors;
+  std::vector<std::vector<double>> times(variants.size());
+  project::Stats stats;
+  for (const Variant& v : variants) {
+    projectors.push_back(std::make_unique<project::gl::CellProjector>(
+        *context, scene, plan_of(scene, v.request, kind), stats));
+  }
+  // Interleaved, so that a slow moment of the machine meets all of them; the first frame compiles.
+  for (int frame = 0; frame <= frames; ++frame) {
+    const project::Frame view(turned(scene.camera, double(frame) / (frames + 1)), kSize, kSize);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const base::Stopwatch clock;
+      (void)projectors[i]->draw(view, stats);
+      if (frame > 0) times[i].push_back(clock.milliseconds());
+    }
+  }
+  std::vector<Cost> result;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    result.push_back({median(times[i]) / 1000, double(projectors[i]->bytes()) / 1e6});
+  }
+  return result;
 }
 
 void print_costs(project::ContextKind kind, int frames) {
@@ -145,35 +179,24 @@ void print_costs(project::ContextKind kind, int frames) {
       variant("faces12", Layout::faces12), variant("faces12-short", Layout::faces12_short),
       variant("strip", Layout::strip), variant("indexed", Layout::indexed)};
   fmt::print(
-      "| data set | layout | cells | MB | frames/s | K cells/s | MB/s |\n"
-      "|---|---|---:|---:|---:|---:|---:|\n");
+      "| data set | layout | cells | MB | frames/s | K cells/s | MB/s | sorted: frames/s | "
+      "K cells/s | MB/s |\n"
+      "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const Data& data : data_sets()) {
     const project::Scene scene = make_scene(data.mesh, Mode::emission);
-    const std::unique_ptr<project::gl::Context> context = project::gl::Context::create(kind);
-    std::vector<std::unique_ptr<project::gl::CellProjector>> projectors;
-    std::vector<std::vector<double>> times(variants.size());
-    project::Stats stats;
-    for (const Variant& v : variants) {
-      projectors.push_back(std::make_unique<project::gl::CellProjector>(
-          *context, scene, plan_of(scene, v.request, kind), stats));
-    }
-    // Interleaved, so that a slow moment of the machine meets all of them; the first frame
-    // compiles.
-    for (int frame = 0; frame <= frames; ++frame) {
-      const project::Frame view(turned(scene.camera, double(frame) / (frames + 1)), kSize, kSize);
-      for (std::size_t i = 0; i < variants.size(); ++i) {
-        const base::Stopwatch clock;
-        (void)projectors[i]->draw(view, stats);
-        if (frame > 0) times[i].push_back(clock.milliseconds());
-      }
-    }
+    const std::vector<Cost> unsorted = costs(scene, variants, kind, frames);
+    const std::vector<Cost> sorted =
+        costs(make_scene(data.mesh, Mode::full), variants, kind, frames);
+    const double cells = double(scene.drawable.cells.size());
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      const double seconds = median(times[i]) / 1000;
-      const double cells = double(scene.drawable.cells.size());
-      const double megabytes = double(projectors[i]->bytes()) / 1e6;
-      fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} |\n", data.name,
-                 variants[i].name, scene.drawable.cells.size(), megabytes, 1 / seconds,
-                 cells / seconds / 1000, megabytes / seconds);
+      fmt::print("| {} | {} | {} | {:.1f}", data.name, variants[i].name, cells,
+                 unsorted[i].megabytes);
+      for (const Cost& cost : {unsorted[i], sorted[i]}) {
+        fmt::print(" | {:.2f} | {:.0f} | {:.0f}", 1 / cost.seconds, cells / cost.seconds / 1000,
+                   cost.megabytes / cost.seconds);
+      }
+      fmt::print(" |\n");
+      std::fflush(stdout);
     }
     print_published(data);
   }

@@ -1,6 +1,7 @@
 // Ways to light a medium: how wrong each is, against the reference that lights every point of every
-// ray, and what it costs; and cube maps of lights against their sum. Prints Markdown.
-//   lighting_study [media | maps]    (default: both)
+// ray, and what it costs; cube maps of lights against their sum; and what becomes of normals that
+// are not normalized after interpolation. Prints Markdown.
+//   lighting_study [media | maps | normals [FOLDER]]    (default: all; FOLDER gets two pictures)
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@
 #include "mesh/samples.h"
 #include "project/compare.h"
 #include "project/cpu/cell_projector.h"
+#include "project/gl/cell_projector.h"
+#include "project/image_file.h"
 #include "project/render.h"
 
 namespace {
@@ -191,18 +194,69 @@ void study_maps() {
   }
 }
 
+/// Lit with interpolated gradients that are normalized, or that only were at the vertices.
+project::Image draw_normals(const project::Scene& scene, bool normalized) {
+  using project::gl::CellProjector;
+  project::Request request;
+  request.projector = Projector::gl;
+  const project::Plan plan = project::plan(scene, request);
+  const auto context = project::gl::Context::create(plan.context);
+  project::Stats stats;
+  CellProjector projector(*context, scene, plan, stats, CellProjector::kLargestTile,
+                          project::gl::FragmentLists::kMost,
+                          normalized ? CellProjector::Gradients::normalized
+                                     : CellProjector::Gradients::of_unit_vertices);
+  return average(projector.draw(project::make_frame(scene), stats), scene.samples);
+}
+
+/// The darkening that meissner2002 (section 2.1) warns of, on an isosurface.
+void study_normals(const std::string& folder) {
+  fmt::print(
+      "\n| mesh | cells | normals | largest error | RMS error | mean color |\n"
+      "|---|---:|---|---:|---:|---:|\n");
+  for (const std::size_t cells : {std::size_t{1500}, std::size_t{12000}, std::size_t{150000}}) {
+    const mesh::TetMesh mesh = mesh::make_sample("orbital", cells);
+    project::Scene scene = make_scene(mesh);
+    scene.mode = project::Mode::iso;
+    scene.isosurfaces = {
+        {scene.field.min + 0.3 * (scene.field.max - scene.field.min), Color(0.9, 0.55, 0.2), 1}};
+    scene.shading = Shading::smooth;
+    scene.width = scene.height = 2 * kCheckedSize;
+    const project::Image reference = draw(scene, Projector::reference);
+    for (const bool normalized : {true, false}) {
+      const project::Image image = draw_normals(scene, normalized);
+      const project::Difference difference = project::compare(image, reference);
+      double sum = 0;
+      double covered = 0;
+      for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        sum += double{image.rgba[i]} + image.rgba[i + 1] + image.rgba[i + 2];
+        covered += image.rgba[i + 3];
+      }
+      fmt::print("| orbital | {} | {} | {:.1e} | {:.1e} | {:.4f} |\n", mesh.cells.size(),
+                 normalized ? "normalized after interpolation" : "normalized at the vertices only",
+                 difference.max, difference.rms, sum / (3 * covered));
+    }
+    if (folder.empty() || cells != 1500) continue;
+    scene.samples = 4;
+    scene.width = scene.height = 300;
+    project::write_image(draw_normals(scene, true), folder + "/normalized.png");
+    project::write_image(draw_normals(scene, false), folder + "/not-normalized.png");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "";
   try {
-    if (part != "maps") {
+    if (part.empty() || part == "media") {
       fmt::print("| mesh | cells | medium | shading | largest error | RMS error | ms |\n");
       fmt::print("|---|---:|---|---|---:|---:|---:|\n");
       study("orbital", 10000);
       study("orbital", 150000);
     }
-    if (part != "media") study_maps();
+    if (part.empty() || part == "maps") study_maps();
+    if (part.empty() || part == "normals") study_normals(argc > 2 ? argv[2] : "");
   } catch (const std::exception& error) {
     fmt::print(stderr, "lighting_study: error: {}\n", error.what());
     return EXIT_FAILURE;

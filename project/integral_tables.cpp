@@ -40,4 +40,17 @@ preint::Table3D integral_table_3d(const Scene& scene, const Plan& plan, const Va
                     longest_edge(scene) / radius, plan.table_n, plan.table_m);
 }
 
+preint::RampedTables3D ramped_integral_tables(const Scene& scene, const Plan& plan,
+                                              const ValueScale& values, double radius) {
+  return ramped_tables_3d(per_radius(scene.transfer_function, radius), values.value(-1),
+                          values.value(1), longest_edge(scene) / radius, plan.table_n,
+                          plan.table_m);
+}
+
+preint::Table3D integral_material_table(const Scene& scene, int n, int m, const ValueScale& values,
+                                        double radius) {
+  return material_table_3d(per_radius(scene.transfer_function, radius), values.value(-1),
+                           values.value(1), longest_edge(scene) / radius, n, m);
+}
+
 }  // namespace tetraglass::project

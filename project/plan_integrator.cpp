@@ -93,7 +93,11 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
     plan.reasons.push_back("integrator: none needed for mode " + to_string(scene.mode));
     return;
   }
-  plan.integrator = request.integrator.value_or(Integrator::exact);
+  // lum2004's light comes from tables of segments.
+  const bool ramps = plan.projector == Projector::gl && is_lit_medium(scene) &&
+                     scene.shading == Shading::interpolated &&
+                     scene.field.location == mesh::Location::point;
+  plan.integrator = request.integrator.value_or(ramps ? Integrator::table3d : Integrator::exact);
   if (plan.integrator == Integrator::exact) {
     if (request.table_n != 0)
       throw base::UsageError("--table needs --integrator table2d or table3d");

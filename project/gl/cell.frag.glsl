@@ -4,6 +4,9 @@
 #ifdef SHADING_FLAT
 flat in vec3 cell_gradient;
 #endif
+#ifdef MODULATED
+flat in float density;  // of the cell: times this, extinctions are
+#endif
 
 uniform vec2 tile_corner;     // added to gl_FragCoord: pixel positions in the whole picture
 uniform vec2 picture_middle;
@@ -57,7 +60,7 @@ float texel_centre(float x, float n) { return (clamp(x, 0.0, 1.0) * (n - 1) + 0.
 #include "clip.glsl"
 #endif
 
-#if defined(TABLE_2D) || defined(TABLE_3D)
+#if defined(TABLE_2D) || defined(TABLE_3D) || defined(MATERIAL_TABLE)
 float value_axis(float s, float n) { return texel_centre(0.5 * s + 0.5, n); }
 #endif
 
@@ -70,15 +73,21 @@ vec4 looked_up(Segment seg) {
 }
 #endif
 
-#ifdef TABLE_3D
-uniform sampler3D table;       // over (front, back, length)
+#if defined(TABLE_3D) || defined(MATERIAL_TABLE)
 uniform float table_length;    // the longest
 
-vec4 looked_up(Segment seg) {
-  vec3 n = vec3(textureSize(table, 0));
-  return textureLod(table, vec3(value_axis(seg.front, n.x), value_axis(seg.back, n.y),
-                                texel_centre(seg.size / table_length, n.z)), 0.0);
+// Of a table over (front, back, length).
+vec4 looked_up_in(sampler3D lengths, Segment seg) {
+  vec3 n = vec3(textureSize(lengths, 0));
+  return textureLod(lengths, vec3(value_axis(seg.front, n.x), value_axis(seg.back, n.y),
+                                  texel_centre(seg.size / table_length, n.z)), 0.0);
 }
+#endif
+
+#ifdef TABLE_3D
+uniform sampler3D table;
+
+vec4 looked_up(Segment seg) { return looked_up_in(table, seg); }
 #endif
 
 #if defined(NEEDS_MEDIUM)
@@ -113,6 +122,37 @@ vec3 lit(Material m, vec4 color, Segment seg, float t, vec2 position) {
 #endif
   return shade(color.rgb, color.a, m, gradient_at(position, depth), at, to_viewer);
 }
+
+#ifdef MODE_FULL
+#ifdef MATERIAL_TABLE
+// Ambient, diffuse and specular coefficient, as far as they are seen, and where most of the light comes from
+// (meissner2002 section 4).
+uniform sampler3D material_table;
+#endif
+#ifdef RAMPED_LIGHT
+uniform sampler3D back_table;
+#endif
+
+// Of a segment by its unlit light. With RAMPED_LIGHT, that is what remains of it for the front of the segment, the
+// opacity is that of all, and the rest is for the back (lum2004).
+vec3 lit_medium(vec4 light, Segment seg, vec2 position) {
+  Material m = the_material();
+  float place = 0.5;
+#ifdef MATERIAL_TABLE
+  vec4 mean = looked_up_in(material_table, seg);
+  m = Material(mean.x, mean.y, mean.z, m.shininess);
+#endif
+#ifdef RAMPED_LIGHT
+  vec4 back = looked_up_in(back_table, seg);
+  return lit(m, vec4(light.rgb, light.a - back.a), seg, 0.0, position) + lit(m, back, seg, 1.0, position);
+#else
+#ifdef WEIGHTED_NORMAL
+  place = mean.w;
+#endif
+  return lit(m, light, seg, place, position);
+#endif
+}
+#endif
 #endif
 
 #ifdef MODE_ISO
@@ -186,6 +226,10 @@ void main() {
 #ifdef CLIPPED
   if (!clip(position, seg)) discard;
 #endif
+#ifdef MODULATED
+  // Less of the medium is as much of it on less of the way.
+  seg.size *= density;
+#endif
 #ifdef COUNT_FRAGMENTS
   imageAtomicAdd(counts, ivec2(gl_FragCoord.xy), 1u);
 #else
@@ -220,7 +264,7 @@ void main() {
   result = radiance(seg.front, seg.back, seg.size);
 #endif
 #if defined(SHADING_FLAT) || defined(SHADING_SMOOTH)
-  result.rgb = lit(the_material(), result, seg, 0.5, position);
+  result.rgb = lit_medium(result, seg, position);
 #endif
 #endif
 #ifdef GATHER_FRAGMENTS

@@ -9,6 +9,9 @@ uniform usamplerBuffer order;     // cell to draw as the k-th
 #ifdef CELL_FIELD
 uniform samplerBuffer cell_values;
 #endif
+#ifdef MODULATED
+uniform samplerBuffer densities;  // of each cell
+#endif
 #ifdef SHADING_SMOOTH
 uniform samplerBuffer gradients;  // of each vertex
 #endif
@@ -38,6 +41,9 @@ flat out float value_at_eye;
 #endif
 #ifdef CELL_FIELD
 flat out float cell_value;
+#endif
+#ifdef MODULATED
+flat out float density;
 #endif
 #ifdef SHADING_FLAT
 flat out vec3 cell_gradient;
@@ -175,6 +181,9 @@ void main() {
 #ifdef CELL_FIELD
   cell_value = texelFetch(cell_values, cell).x;
 #endif
+#ifdef MODULATED
+  density = texelFetch(densities, cell).x;
+#endif
 #ifdef SHADING_FLAT
   // grad s = sum s_i grad lambda_i; the gradients' sum is 0, and the normal's length and sign do not matter.
   dvec3 n1 = cross(p[2] - p[0], p[3] - p[0]);
@@ -187,6 +196,10 @@ void main() {
 #ifdef SHADING_SMOOTH
   for (int i = 0; i < 4; ++i) {
     vertex_gradients[i] = mat3(axes) * texelFetch(gradients, int(ids[i])).xyz;
+#ifdef UNIT_VERTICES
+    float size = length(vertex_gradients[i]);
+    if (size > 0) vertex_gradients[i] /= size;
+#endif
   }
 #endif
 

@@ -18,8 +18,9 @@ struct LayoutBytes {
   std::size_t cells = 0;
   std::size_t order = 0;  ///< only where they are sorted
   std::size_t gradients = 0;
+  std::size_t densities = 0;  ///< of cells that a scene modulates
 
-  [[nodiscard]] std::size_t sum() const { return cells + order + gradients; }
+  [[nodiscard]] std::size_t sum() const { return cells + order + gradients + densities; }
 };
 
 /// The cells that a scene shows, as one layout keeps them on the context and draws them.

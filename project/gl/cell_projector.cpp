@@ -5,32 +5,31 @@
 #include <iterator>
 #include <limits>
 
-#include "base/errors.h"
 #include "base/stopwatch.h"
-#include "preint/psi_table.h"
 #include "project/gl/functions.inl"
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
-#include "project/integral_tables.h"
 #include "project/shown_cells.h"
 
 namespace tetraglass::project::gl {
 
 CellProjector::CellProjector(const Context& context, const Scene& scene, const Plan& plan,
-                             Stats& stats, int largest_tile, std::size_t most_fragments)
+                             Stats& stats, int largest_tile, std::size_t most_fragments,
+                             Gradients gradients)
     : context_(context),
       scene_(scene),
       plan_(plan),
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       most_fragments_(most_fragments),
+      gradients_(gradients),
       normalization_(scene),
       drawn_(shown_cells(scene, normalization_.values)),
       cells_(make_cell_layout(context, scene, plan, normalization_, drawn_)),
       lights_(context, scene, plan),
+      tables_(context, scene, plan, normalization_, stats),
       counter_(context) {
   add_cell_bytes(stats);
-  make_tables(stats);
   if (reads_medium(scene, plan)) {
     medium_.emplace(context, scene.transfer_function, normalization_);
     stats.add(Effect::medium, medium_->bytes());
@@ -45,34 +44,7 @@ void CellProjector::add_cell_bytes(Stats& stats) const {
   const LayoutBytes bytes = cells_->bytes();
   stats.add(Effect::cells, bytes.cells);
   if (bytes.gradients > 0) stats.add(Effect::gradients, bytes.gradients);
-}
-
-void CellProjector::make_tables(Stats& stats) {
-  if (plan_.integrator == Integrator::exact || plan_.integrator == Integrator::linear) return;
-  const base::Stopwatch clock;
-  if (plan_.integrator == Integrator::psi) {
-    const preint::PsiTable table = preint::psi_table(plan_.table_n);
-    table_.emplace(context_, Texel::r32f, std::array<int, 3>{table.n, table.n, 0}, table.psi, true);
-    stats.tables_ms += clock.milliseconds();
-    stats.add(Effect::table, sizeof(float) * table.psi.size(), clock.milliseconds());
-    return;
-  }
-  const double radius = normalization_.radius;
-  const auto n = static_cast<std::size_t>(plan_.table_n);
-  std::size_t texels = n * n;
-  if (plan_.integrator == Integrator::table2d) {
-    const preint::Table2D table = integral_table_2d(scene_, plan_, normalization_.values, radius);
-    table_.emplace(context_, Texel::rgba32f, std::array<int, 3>{table.n, table.n, 0}, table.rgba,
-                   scene_.mode != Mode::iso);
-  } else {
-    texels *= static_cast<std::size_t>(plan_.table_m);
-    const preint::Table3D table = integral_table_3d(scene_, plan_, normalization_.values, radius);
-    table_length_ = static_cast<float>(table.max_length);
-    table_.emplace(context_, Texel::rgba32f, std::array<int, 3>{table.n, table.n, table.m},
-                   table.rgba, true);
-  }
-  stats.tables_ms += clock.milliseconds();
-  stats.add(Effect::table, texels * texel_bytes(Texel::rgba32f), clock.milliseconds());
+  if (bytes.densities > 0) stats.add(Effect::modulation, bytes.densities);
 }
 
 const Program& CellProjector::program(bool parallel, const std::string& pass) {
@@ -82,6 +54,7 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   std::vector<std::string> names = shader_switches(scene_, plan_, parallel);
   for (std::string& name : cells_->switches()) names.push_back(std::move(name));
   if (!pass.empty()) names.push_back(pass);
+  if (gradients_ == Gradients::of_unit_vertices) names.emplace_back("UNIT_VERTICES");
   if (!ends_.empty()) names.emplace_back("RAY_ENDS");
   const Program& program =
       programs_
@@ -91,8 +64,7 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   cells_->set_uniforms(program);
   program.set("medium_pieces", Units::kMediumPieces);
   program.set("medium_index", Units::kMediumIndex);
-  program.set("table", Units::kTable);
-  program.set("table_length", table_length_);
+  tables_.set_uniforms(program);
   program.set("surfaces", Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
   program.set("ray_ends", Units::kRayEnds);
@@ -132,7 +104,7 @@ bool CellProjector::order_cells(const Frame& frame, Stats& stats) {
 void CellProjector::bind() const {
   if (medium_) medium_->bind();
   if (surfaces_) surfaces_->bind(Units::kSurfaces);
-  if (table_) table_->bind(Units::kTable);
+  tables_.bind();
 }
 
 void CellProjector::set_blending() const {

@@ -11,6 +11,7 @@
 #include "project/gl/light_texels.h"
 #include "project/gl/medium_buffers.h"
 #include "project/gl/mesh_buffers.h"
+#include "project/gl/segment_tables.h"
 #include "project/gl/view_uniforms.h"
 #include "project/image.h"
 #include "project/opaque_layers.h"
@@ -27,11 +28,19 @@ class CellProjector {
   /// The largest picture that is drawn at once: 256 MB of RGBA32F. Larger ones are drawn in tiles.
   static constexpr int kLargestTile = 4096;
 
+  /// What gradients between the vertices are made of, where they light.
+  enum class Gradients {
+    normalized,       ///< those at the vertices, interpolated, then normalized
+    of_unit_vertices  ///< normalized at the vertices only: too short, hence dark, where they
+                      ///< differ. A bad example, to be measured
+  };
+
   /// The scene has a drawable cell. Adds the time for tables to `stats`. Throws UnavailableError
   /// where the mesh or the tables do not fit. `most_fragments` are gathered at once for the order
   /// `fragments`.
   CellProjector(const Context& context, const Scene& scene, const Plan& plan, Stats& stats,
-                int largest_tile = kLargestTile, std::size_t most_fragments = FragmentLists::kMost);
+                int largest_tile = kLargestTile, std::size_t most_fragments = FragmentLists::kMost,
+                Gradients gradients = Gradients::normalized);
 
   /// The picture from one view; adds times, fragments and the order to `stats`. The scene's camera
   /// and size do not matter. Its opaque geometry may have changed since the last one (but for the
@@ -45,7 +54,6 @@ class CellProjector {
   /// `pass`: a `#define` of FragmentLists, or empty.
   [[nodiscard]] const Program& program(bool parallel, const std::string& pass = "");
   void add_cell_bytes(Stats& stats) const;
-  void make_tables(Stats& stats);
   /// Whether the cells are in exact order, or need none.
   bool order_cells(const Frame& frame, Stats& stats);
   void bind() const;
@@ -64,15 +72,15 @@ class CellProjector {
   Plan plan_;
   int largest_tile_;
   std::size_t most_fragments_;
+  Gradients gradients_;
   Normalization normalization_;
   std::vector<std::uint32_t> drawn_;
   std::unique_ptr<CellLayout> cells_;
   std::optional<MediumBuffers> medium_;
   std::optional<TextureBuffer> surfaces_;
   LightTexels lights_;
-  std::optional<Table> table_;
+  SegmentTables tables_;
   bool cells_told_ = false;  // of cells in parts, by the first frame
-  float table_length_ = 1;   // in normalized units
   FragmentCounter counter_;
   std::map<std::string, Program> programs_;  // by the purpose that they were made for
   bool by_fragments_ = false;                // the frame

@@ -19,6 +19,9 @@ uniform vec3 direction;
 #ifdef ENTRY_DEPTH
 uniform vec4 to_depth;   // z - focus of a point: its product with (x, y, z, 1)
 #endif
+#ifdef MODULATED
+uniform float modulation;  // times the length of a gradient: the density, up to 1
+#endif
 #ifdef SHADING_FLAT
 uniform dmat3 axes;      // world to camera
 #endif
@@ -38,6 +41,9 @@ flat out vec3 gradient;
 #endif
 #ifdef CELL_FIELD
 flat out float value;
+#endif
+#ifdef MODULATED
+flat out float density;
 #endif
 #ifdef SHADING_FLAT
 flat out vec3 cell_gradient;
@@ -93,6 +99,11 @@ void main() {
 #endif
 #ifdef CELL_FIELD
   value = value_and_gradient.x * scale.x;
+#endif
+#ifdef MODULATED
+  // Scaled first: the squares of large components would not be finite.
+  float largest = max(max(abs(own_gradient.x), abs(own_gradient.y)), abs(own_gradient.z));
+  density = largest > 0 ? min(length(own_gradient / largest) * (largest * modulation), 1.0) : 0.0;
 #endif
 #ifdef SHADING_FLAT
   cell_gradient = mat3(axes) * own_gradient;

@@ -276,6 +276,9 @@ std::vector<std::string> Faces12Cells::switches() const {
 
 void Faces12Cells::set_uniforms(const Program& program) const {
   program.set("scale", scale_);
+  if (scene_.modulation) {
+    program.set("modulation", modulation_factor(scene_, normalization_));
+  }
   program.set("minima", Units::kMinima);
 }
 

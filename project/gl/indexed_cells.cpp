@@ -62,8 +62,9 @@ void IndexedCells::draw() {
 
 LayoutBytes IndexedCells::bytes() const {
   const std::size_t numbers = order_ ? order_->bytes() : 0;
-  const std::size_t cells = mesh_.bytes() - mesh_.gradient_bytes();
-  return {sorted_ ? cells : cells + numbers, sorted_ ? numbers : 0, mesh_.gradient_bytes()};
+  const std::size_t cells = mesh_.bytes() - mesh_.gradient_bytes() - mesh_.density_bytes();
+  return {sorted_ ? cells : cells + numbers, sorted_ ? numbers : 0, mesh_.gradient_bytes(),
+          mesh_.density_bytes()};
 }
 
 }  // namespace tetraglass::project::gl

@@ -49,7 +49,8 @@ void IndexedParts::draw() {
     mesh_.load(rest.first(count), cutter_);
     mesh_.bind();
     faces_.draw(count);
-    const LayoutBytes bytes{mesh_.bytes() - mesh_.gradient_bytes(), 0, mesh_.gradient_bytes()};
+    const LayoutBytes bytes{mesh_.bytes() - mesh_.gradient_bytes() - mesh_.density_bytes(), 0,
+                            mesh_.gradient_bytes(), mesh_.density_bytes()};
     if (bytes.sum() > most_.sum()) most_ = bytes;
     first += count;
   }

@@ -8,6 +8,7 @@
 
 #include "mesh/gradients.h"
 #include "mesh/predicates.h"
+#include "project/modulation.h"
 
 namespace tetraglass::project::gl {
 namespace {
@@ -87,6 +88,7 @@ void set_mesh_units(const Program& program) {
   program.set("cells", Units::kCells);
   program.set("vertices", Units::kVertices);
   program.set("cell_values", Units::kCellValues);
+  program.set("densities", Units::kDensities);
   program.set("gradients", Units::kGradients);
 }
 
@@ -97,6 +99,11 @@ MeshBuffers::MeshBuffers(const Context& context, const Scene& scene,
       cells_(context, Texel::rgba32ui),
       vertices_(context, Texel::rgba32f) {
   if (scene.field.location == mesh::Location::cell) cell_values_.emplace(context, Texel::r32f);
+  if (scene.modulation) {
+    densities_.emplace(context, Texel::r32f);
+    const std::vector<double> densities = cell_densities(scene);
+    cell_densities_.assign(densities.begin(), densities.end());
+  }
   if (gradients) {
     gradients_.emplace(context, Texel::rgba32f);
     vertex_gradients_ = vertex_gradients(scene);
@@ -105,7 +112,8 @@ MeshBuffers::MeshBuffers(const Context& context, const Scene& scene,
 
 std::size_t MeshBuffers::cell_bytes(const Scene& scene) {
   return texel_bytes(Texel::rgba32ui) +
-         (scene.field.location == mesh::Location::cell ? texel_bytes(Texel::r32f) : 0);
+         (scene.field.location == mesh::Location::cell ? texel_bytes(Texel::r32f) : 0) +
+         (scene.modulation ? texel_bytes(Texel::r32f) : 0);
 }
 
 std::size_t MeshBuffers::point_bytes(bool gradients) {
@@ -123,6 +131,10 @@ void MeshBuffers::load() {
     cell_values_->upload(made(mesh.cells.size(),
                               [&](std::size_t i) { return cell_value(scene_, normalization_, i); }),
                          "cell values");
+  }
+  if (densities_) {
+    densities_->upload(cell_densities_, "densities");
+    cell_densities_ = {};
   }
   if (gradients_) {
     gradients_->upload(vertex_gradients_, "gradients");
@@ -153,6 +165,10 @@ void MeshBuffers::load(std::span<const std::uint32_t> cells, const CellCutter& c
              [&](std::size_t k) { return cell_value(scene_, normalization_, cells[k]); }),
         "cell values");
   }
+  if (densities_) {
+    densities_->upload(made(cells.size(), [&](std::size_t k) { return cell_densities_[cells[k]]; }),
+                       "densities");
+  }
   if (gradients_) {
     gradients_->upload(
         made(points.size(), [&](std::size_t i) { return vertex_gradients_[points[i]]; }),
@@ -164,12 +180,13 @@ void MeshBuffers::bind() const {
   cells_.bind(Units::kCells);
   vertices_.bind(Units::kVertices);
   if (cell_values_) cell_values_->bind(Units::kCellValues);
+  if (densities_) densities_->bind(Units::kDensities);
   if (gradients_) gradients_->bind(Units::kGradients);
 }
 
 std::size_t MeshBuffers::bytes() const {
   return cells_.bytes() + vertices_.bytes() + (cell_values_ ? cell_values_->bytes() : 0) +
-         gradient_bytes();
+         density_bytes() + gradient_bytes();
 }
 
 }  // namespace tetraglass::project::gl

@@ -19,7 +19,8 @@ class MeshBuffers {
  public:
   /// Cells (4 vertex ids in ascending order, which both cells at a face agree on, and the sign of
   /// the orientation in that order), vertices (normalized position and value), the values of a cell
-  /// field, and the gradients at the vertices if `gradients`. Nothing is on the context yet. Refers
+  /// field, the densities of cells that a scene modulates, and the gradients at the vertices if
+  /// `gradients`. Nothing is on the context yet. Refers
   /// to the scene and the normalization, which outlive it.
   MeshBuffers(const Context& context, const Scene& scene, const Normalization& normalization,
               bool gradients);
@@ -39,6 +40,7 @@ class MeshBuffers {
   void bind() const;
 
   [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t density_bytes() const { return densities_ ? densities_->bytes() : 0; }
   [[nodiscard]] std::size_t gradient_bytes() const { return gradients_ ? gradients_->bytes() : 0; }
 
  private:
@@ -49,6 +51,8 @@ class MeshBuffers {
   TextureBuffer vertices_;
   std::optional<TextureBuffer> cell_values_;
   std::optional<TextureBuffer> gradients_;
+  std::vector<float> cell_densities_;
+  std::optional<TextureBuffer> densities_;
 };
 
 /// Whether the shaders light by gradients at the vertices.
@@ -73,6 +77,9 @@ struct Units {
   static constexpr int kRayEnds = 11;
   static constexpr int kDiffuseMap = 12;
   static constexpr int kSpecularMap = 13;
+  static constexpr int kBackTable = 14;
+  static constexpr int kMaterialTable = 15;
+  static constexpr int kDensities = 16;
 };
 
 }  // namespace tetraglass::project::gl

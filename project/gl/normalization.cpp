@@ -1,5 +1,7 @@
 #include "project/gl/normalization.h"
 
+#include <algorithm>
+
 namespace tetraglass::project::gl {
 
 Normalization::Normalization(const Scene& scene) : values(scene.field) {
@@ -12,6 +14,12 @@ Normalization::Normalization(const Scene& scene) : values(scene.field) {
 
 Eigen::Vector3f Normalization::point(const Eigen::Vector3d& world) const {
   return ((world - center) / radius).cast<float>();
+}
+
+float modulation_factor(const Scene& scene, const Normalization& normalization) {
+  const double steepness = (normalization.field_value(1) - normalization.field_value(0)) /
+                           normalization.radius;  // of a gradient of 1
+  return static_cast<float>(std::min(steepness / *scene.modulation, 1e30));
 }
 
 }  // namespace tetraglass::project::gl

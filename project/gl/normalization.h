@@ -28,4 +28,8 @@ struct Normalization {
   [[nodiscard]] double field_value(double normalized) const { return values.value(normalized); }
 };
 
+/// What the length of a gradient in normalized units is multiplied by to be a density, below 1
+/// (modulation.h). The scene has a modulation.
+[[nodiscard]] float modulation_factor(const Scene& scene, const Normalization& normalization);
+
 }  // namespace tetraglass::project::gl

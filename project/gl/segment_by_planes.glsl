@@ -89,12 +89,16 @@ bool segment(vec2 position, out Segment seg) {
 #ifdef SHADING_SMOOTH
 // Of the vertices, at a depth (z - focus) of the ray; its length does not matter.
 vec3 interpolated_gradient(vec2 position, float depth) {
-  // lambda_i of a point at Z is facing_i (Z_i - Z), but for a factor common to the four.
-  float z = depth / (1 + focus_inverse * depth);
+  // lambda_i of a point at Z = depth / w is facing_i (Z_i - Z), but for a factor common to the four: w, here, which
+  // is 0 at the eye.
+  float w = 1 + focus_inverse * depth;
   vec4 x = position.x - anchors.xzzz;
   vec4 y = position.y - anchors.ywww;
-  vec4 lambda = max(facing * (depth_at_anchor + depth_dx * x + depth_dy * y - z), 0.0);
+  vec4 lambda = max(facing * ((depth_at_anchor + depth_dx * x + depth_dy * y) * w - depth), 0.0);
   lambda /= max(max(max(lambda.x, lambda.y), max(lambda.z, lambda.w)), 1e-37);
+#ifdef UNIT_VERTICES
+  lambda /= dot(lambda, vec4(1));
+#endif
   return lambda.x * vertex_gradients[0] + lambda.y * vertex_gradients[1] + lambda.z * vertex_gradients[2] +
          lambda.w * vertex_gradients[3];
 }

@@ -40,7 +40,11 @@ vec3 shade(vec3 color, float opacity, Material material, vec3 gradient, vec3 at,
   // Scaled first: the squares of small components would vanish.
   float largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
   if (!(largest > 0)) return color;
+#ifdef UNIT_VERTICES
+  vec3 normal = gradient;
+#else
   vec3 normal = normalize(gradient / largest);
+#endif
   float facing = dot(normal, to_viewer);
 #ifdef LIGHTS
   if (facing < 0) {

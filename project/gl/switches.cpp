@@ -1,7 +1,14 @@
 #include "project/gl/switches.h"
 
+#include "project/light/plan_light.h"
+
 namespace tetraglass::project::gl {
 namespace {
+
+// The gradient of a field that is constant in each cell is 0: nothing of it is lit.
+bool is_lit(const Scene& scene) {
+  return scene.shading != Shading::none && scene.field.location == mesh::Location::point;
+}
 
 bool is_field_maximum(const Scene& scene) {
   return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
@@ -42,6 +49,16 @@ bool reads_medium(const Scene& scene, const Plan& plan) {
          !is_field_maximum(scene);
 }
 
+bool has_ramped_light(const Scene& scene, const Plan& plan) {
+  return is_lit_medium(scene) && is_lit(scene) && scene.shading == Shading::interpolated &&
+         plan.integrator == Integrator::table3d;
+}
+
+bool has_material_table(const Scene& scene) {
+  if (!is_lit_medium(scene) || !is_lit(scene)) return false;
+  return scene.shading == Shading::weighted || !has_one_material(scene.transfer_function);
+}
+
 std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, bool parallel) {
   std::vector<std::string> names = {mode_switch(scene)};
   if (parallel) names.emplace_back("PARALLEL");
@@ -61,10 +78,15 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
     if (draws_opaque_surfaces(scene)) names.emplace_back("OPAQUE");
     if (scene.depth_cue) names.emplace_back("DEPTH_CUE");
   }
-  // The gradient of a field that is constant in each cell is 0: nothing of it is lit.
-  if (scene.shading != Shading::none && scene.field.location == mesh::Location::point) {
+  if (scene.modulation) names.emplace_back("MODULATED");
+  if (is_lit(scene)) {
     names.emplace_back(has_cell_normals(scene) ? "SHADING_FLAT" : "SHADING_SMOOTH");
     if (scene.lights) names.emplace_back("LIGHTS");
+    if (has_ramped_light(scene, plan)) names.emplace_back("RAMPED_LIGHT");
+    if (has_material_table(scene)) names.emplace_back("MATERIAL_TABLE");
+    if (is_lit_medium(scene) && scene.shading == Shading::weighted) {
+      names.emplace_back("WEIGHTED_NORMAL");
+    }
     if (plan.light_map > 0) names.emplace_back("LIGHT_MAPS");
   }
   return names;

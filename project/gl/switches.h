@@ -21,6 +21,13 @@ namespace tetraglass::project::gl {
 /// Whether the fragment stage integrates the transfer function itself.
 [[nodiscard]] bool reads_medium(const Scene& scene, const Plan& plan);
 
+/// Whether segments of a medium are lit by tables weighted towards both of their ends (lum2004).
+[[nodiscard]] bool has_ramped_light(const Scene& scene, const Plan& plan);
+
+/// Whether segments of a medium are lit by means of its materials, and of where they are seen
+/// (meissner2002 section 4).
+[[nodiscard]] bool has_material_table(const Scene& scene);
+
 /// The `#define`s of the shaders, but for those that the layout of the cells adds.
 [[nodiscard]] std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan,
                                                        bool parallel);

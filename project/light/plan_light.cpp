@@ -56,24 +56,47 @@ void check_materials_of_surfaces(const Scene& scene) {
   }
 }
 
-/// Projectors on OpenGL light each segment or slab of a medium once.
-void check_medium_of_gl(const Scene& scene, const Plan& plan) {
-  const std::string name = "--projector " + to_string(plan.projector);
-  if (scene.shading != Shading::single) {
-    throw base::UsageError(
-        name +
-        " lights the segments of a medium once each: use --shading single, or --projector cpu");
-  }
+/// Cube maps and the shaders of gl have highlights of one shininess.
+void check_shininess_of_medium(const Scene& scene) {
   const std::vector<preint::ControlPoint>& points = scene.transfer_function.points();
   for (const preint::ControlPoint& point : points) {
-    if (coefficients(point.material) != coefficients(points[0].material)) {
+    if (point.material.shininess != points[0].material.shininess) {
       throw base::UsageError(
-          name +
-          " has one material for a medium, and the transfer function has several: use "
-          "--projector cpu");
+          "--projector gl has one shininess for a medium, and the transfer function has several: "
+          "use --projector cpu");
     }
   }
-  if (plan.projector == Projector::slices && plan.slices.classify == Classify::pre) {
+}
+
+void check_medium_of_gl(const Scene& scene, const Plan& plan) {
+  if (scene.shading != Shading::single && scene.shading != Shading::weighted &&
+      scene.shading != Shading::interpolated) {
+    throw base::UsageError(
+        "--projector gl lights the segments of a medium once or at both of their ends: use "
+        "--shading single, weighted or interpolated, or --projector cpu");
+  }
+  check_shininess_of_medium(scene);
+  const bool is_constant = scene.field.min == scene.field.max;
+  if (scene.shading == Shading::interpolated && plan.integrator != Integrator::table3d &&
+      scene.field.location == mesh::Location::point && !is_constant) {
+    throw base::UsageError(
+        "--shading interpolated of --projector gl looks light up in tables: use --integrator "
+        "table3d, or leave it out");
+  }
+}
+
+/// Each slab is lit once.
+void check_medium_of_slices(const Scene& scene, const Plan& plan) {
+  if (scene.shading != Shading::single) {
+    throw base::UsageError(
+        "--projector slices lights each slab of a medium once: use --shading single, or "
+        "--projector grid-reference");
+  }
+  if (!has_one_material(scene.transfer_function)) {
+    throw base::UsageError(
+        "--projector slices has one material for a medium, and the transfer function has several");
+  }
+  if (plan.slices.classify == Classify::pre) {
     throw base::UsageError(
         "--classify pre has colors without values: light needs post or integrated");
   }
@@ -104,16 +127,23 @@ void check_light_map(const Scene& scene, int size, const Plan& plan) {
 
 void check_projector(const Scene& scene, const Plan& plan) {
   if (plan.projector == Projector::cpu || plan.projector == Projector::reference) return;
-  if (scene.modulation) {
-    throw base::UsageError("--projector " + to_string(plan.projector) +
-                           " has no --modulate; use --projector cpu");
+  if (scene.modulation && plan.projector == Projector::slices &&
+      plan.slices.classify == Classify::pre) {
+    throw base::UsageError(
+        "--classify pre has colors without values: --modulate needs post or integrated");
   }
-  if (is_lit_medium(scene) && plan.projector != Projector::grid_reference) {
-    check_medium_of_gl(scene, plan);
-  }
+  if (!is_lit_medium(scene)) return;
+  if (plan.projector == Projector::gl) check_medium_of_gl(scene, plan);
+  if (plan.projector == Projector::slices) check_medium_of_slices(scene, plan);
 }
 
 }  // namespace
+
+bool has_one_material(const preint::TransferFunction& tf) {
+  const Coefficients first = coefficients(tf.points()[0].material);
+  return std::all_of(tf.points().begin(), tf.points().end(),
+                     [&](const auto& point) { return coefficients(point.material) == first; });
+}
 
 void plan_light(const Scene& scene, int light_map, Plan& plan) {
   check_scene(scene);

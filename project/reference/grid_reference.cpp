@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -27,6 +28,8 @@ using Rgba = Eigen::Array4d;
 constexpr double kTolerance = 1e-12;
 // Of lit media, whose normals and highlights have edges.
 constexpr double kLitTolerance = 1e-8;
+// Of modulated media, whose extinction has edges where the density reaches 1.
+constexpr double kModulatedTolerance = 1e-8;
 constexpr int kMostHalvings = 40;
 
 /// The part [begin, end] of a piece where the transfer function is linear in the value.
@@ -35,36 +38,58 @@ struct LinearPart {
   std::size_t interval;
   const MonotonePiece* piece;
   double length;  ///< of the whole piece
+  /// What the extinction at a position is multiplied by; empty: nothing.
+  std::function<double(double)> density = {};
 
   [[nodiscard]] preint::Medium at(double t) const {
-    return tf->in_interval(interval, piece->value(t));
+    preint::Medium medium = tf->in_interval(interval, piece->value(t));
+    if (density) medium.extinction *= density(t);
+    return medium;
   }
   /// The optical depth between two positions: extinction is a cubic, for which four nodes are
   /// exact.
   [[nodiscard]] double depth(double begin, double end) const {
-    double sum = 0;
-    for (const preint::GaussNode& node : preint::kGauss4) {
-      sum += node.weight * at(begin + node.x * (end - begin)).extinction;
-    }
-    return std::max(0.0, sum * (end - begin) * length);
+    return std::max(
+        0.0, sum(begin, end, [](const preint::Medium& medium) { return medium.extinction; }));
   }
   /// What is emitted: of degree 6, exact with four nodes.
   [[nodiscard]] Color emission(double begin, double end) const {
-    Color sum = Color::Zero();
+    return {sum(begin, end, [](const preint::Medium& m) { return m.extinction * m.color.x(); }),
+            sum(begin, end, [](const preint::Medium& m) { return m.extinction * m.color.y(); }),
+            sum(begin, end, [](const preint::Medium& m) { return m.extinction * m.color.z(); })};
+  }
+  /// The integral of what four nodes are exact for.
+  template <class F>
+  [[nodiscard]] double by_one_rule(double begin, double end, const F& of) const {
+    double sum = 0;
     for (const preint::GaussNode& node : preint::kGauss4) {
-      const preint::Medium medium = at(begin + node.x * (end - begin));
-      sum += node.weight * medium.extinction * medium.color;
+      sum += node.weight * of(at(begin + node.x * (end - begin)));
     }
     return sum * (end - begin) * length;
+  }
+  /// The integral of what four nodes are exact for but for a density: halved then until it is.
+  template <class F>
+  [[nodiscard]] double sum(double begin, double end, const F& of,
+                           int halvings = kMostHalvings) const {
+    const double whole = by_one_rule(begin, end, of);
+    if (!density) return whole;
+    const double middle = 0.5 * (begin + end);
+    const double halves = by_one_rule(begin, middle, of) + by_one_rule(middle, end, of);
+    if (halvings == 0 || std::abs(whole - halves) <= kModulatedTolerance) return halves;
+    return sum(begin, middle, of, halvings - 1) + sum(middle, end, of, halvings - 1);
   }
   /// `color_of(t, Medium)`: the color at a position, lit or not.
   template <class F>
   [[nodiscard]] Color light_by_one_rule(double begin, double end, const F& color_of) const {
     Color sum = Color::Zero();
+    double depth = 0;
+    double last = begin;
     for (const preint::GaussNode& node : preint::kGauss10) {
       const double t = begin + node.x * (end - begin);
       const preint::Medium medium = at(t);
-      sum += node.weight * medium.extinction * std::exp(-depth(begin, t)) * color_of(t, medium);
+      depth += by_one_rule(last, t, [](const preint::Medium& m) { return m.extinction; });
+      last = t;
+      sum += node.weight * medium.extinction * std::exp(-depth) * color_of(t, medium);
     }
     return sum * (end - begin) * length;
   }
@@ -98,9 +123,9 @@ class Tracer {
       case Mode::full:
         return full(pieces, plane, stretch);
       case Mode::emission:
-        return emission(pieces, stretch);
+        return emission(pieces, plane, stretch);
       case Mode::absorption:
-        return absorption(pieces, stretch);
+        return absorption(pieces, plane, stretch);
       case Mode::mip:
         return mip(pieces);
       case Mode::iso:
@@ -118,7 +143,8 @@ class Tracer {
 
   /// Calls visit(part, begin, end) for the parts of a piece between control points, front to back.
   template <class Visit>
-  void visit_parts(const MonotonePiece& piece, double stretch, Visit visit) const {
+  void visit_parts(const MonotonePiece& piece, const Eigen::Vector2d& plane, double stretch,
+                   Visit visit) const {
     const preint::TransferFunction& tf = scene_.transfer_function;
     const double front = piece.value(0);
     const double back = piece.value(1);
@@ -131,7 +157,8 @@ class Tracer {
       // The control point where the interval is left.
       const double end =
           ends ? 1 : piece.position(tf.points()[rising ? interval : interval - 1].value);
-      const LinearPart part{&tf, interval, &piece, (piece.exit - piece.entry) * stretch};
+      LinearPart part{&tf, interval, &piece, (piece.exit - piece.entry) * stretch};
+      if (scene_.modulation) part.density = [&](double t) { return density(piece, t, plane); };
       if (end > begin) visit(part, begin, end);
       if (ends) return;
       begin = std::max(begin, end);
@@ -142,22 +169,32 @@ class Tracer {
   [[nodiscard]] Rgba full(const std::vector<MonotonePiece>& pieces, const Eigen::Vector2d& plane,
                           double stretch) const {
     const bool lit = is_lit_medium(scene_);
+    const double tolerance = scene_.modulation ? kLitTolerance : kTolerance;
     Color color = Color::Zero();
     double depth = 0;
     for (const MonotonePiece& piece : pieces) {
-      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+      visit_parts(piece, plane, stretch, [&](const LinearPart& part, double begin, double end) {
         const Color light =
             lit ? part.light(begin, end, kLitTolerance,
                              [&](double t, const preint::Medium& medium) {
                                return lit_color(piece, t, plane, medium.color);
                              })
-                : part.light(begin, end, kTolerance,
+                : part.light(begin, end, tolerance,
                              [](double, const preint::Medium& medium) { return medium.color; });
         color += std::exp(-depth) * light;
         depth += part.depth(begin, end);
       });
     }
     return rgba(color, -std::expm1(-depth));
+  }
+
+  /// min(1, |gradient| / modulation) at a position of a piece.
+  [[nodiscard]] double density(const MonotonePiece& piece, double t,
+                               const Eigen::Vector2d& plane) const {
+    const Eigen::Vector3d at =
+        voxels_.coordinate(plane, piece.entry + t * (piece.exit - piece.entry));
+    return std::min(1.0,
+                    grid_gradient(scene_, scene_.grid->index_at(at)).norm() / *scene_.modulation);
   }
 
   /// At a position of a piece.
@@ -172,20 +209,22 @@ class Tracer {
                  -(frame().axes().transpose() * ray).normalized());
   }
 
-  [[nodiscard]] Rgba emission(const std::vector<MonotonePiece>& pieces, double stretch) const {
+  [[nodiscard]] Rgba emission(const std::vector<MonotonePiece>& pieces,
+                              const Eigen::Vector2d& plane, double stretch) const {
     Color color = Color::Zero();
     for (const MonotonePiece& piece : pieces) {
-      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+      visit_parts(piece, plane, stretch, [&](const LinearPart& part, double begin, double end) {
         color += part.emission(begin, end);
       });
     }
     return rgba(color, 0);
   }
 
-  [[nodiscard]] Rgba absorption(const std::vector<MonotonePiece>& pieces, double stretch) const {
+  [[nodiscard]] Rgba absorption(const std::vector<MonotonePiece>& pieces,
+                                const Eigen::Vector2d& plane, double stretch) const {
     double depth = 0;
     for (const MonotonePiece& piece : pieces) {
-      visit_parts(piece, stretch, [&](const LinearPart& part, double begin, double end) {
+      visit_parts(piece, plane, stretch, [&](const LinearPart& part, double begin, double end) {
         depth += part.depth(begin, end);
       });
     }

@@ -15,8 +15,9 @@ namespace tetraglass::project {
 /// ray is split at the planes of the voxels, where the field (a cubic along the ray) turns and
 /// where it meets control points of the transfer function; optical depths of the pieces are exact,
 /// light is integrated by adaptive Gauss-Legendre quadrature to 1e-12 a piece; lit media are lit at
-/// every point and integrated to 1e-8. Normals are those of grid_gradient. Of a scene with a grid
-/// and a point field of finite values. A pixel for each sample.
+/// every point, modulated ones thinned at every point, and integrated to 1e-8. Normals are those of
+/// grid_gradient. Of a scene with a grid and a point field of finite values. A pixel for each
+/// sample.
 [[nodiscard]] Image render_grid_reference(const Scene& scene, Stats& stats);
 
 /// Single pixels (x, y) of the scene's picture: RGBA each, the mean of their samples.

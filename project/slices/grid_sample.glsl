@@ -68,7 +68,7 @@ vec4 texel_at(vec3 index) {
 
 float value_at(vec3 index) { return texel_at(index).x; }
 
-#ifdef SHADING_SMOOTH
+#if defined(SHADING_SMOOTH) || defined(MODULATED)
 // The mean over the places one point up and down the axes other than k, weights (1, 2, 1) / 4 along each.
 float smoothed_value(vec3 index, int k) {
 #ifdef SOBEL
@@ -89,7 +89,7 @@ float smoothed_value(vec3 index, int k) {
 #endif
 }
 
-// In camera space; its length does not matter. From the values one point up and down along each axis
+// In camera space, for each unit of length. From the values one point up and down along each axis
 // (grid_reference.h, grid_gradient).
 vec3 gradient_at(vec3 index) {
   vec3 slope;
@@ -105,7 +105,7 @@ vec3 gradient_at(vec3 index) {
     float apart = point_of(first, up[k]) - point_of(first, down[k]);
     first += int(last_point[k]) + 1;
 #else
-    float apart = (up[k] - down[k]) / last_point[k];
+    float apart = 2 * (up[k] - down[k]) / last_point[k];
 #endif
     slope[k] = (smoothed_value(up, k) - smoothed_value(down, k)) / apart;
   }

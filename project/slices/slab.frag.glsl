@@ -47,6 +47,10 @@ vec4 light_of(float front, float back, float size) {
 #endif
 }
 
+#ifdef MODULATED
+uniform float modulation;  // times the length of a gradient: the density, up to 1
+#endif
+
 void main() {
   vec2 position = gl_FragCoord.xy + tile_corner;
   Ray ray = ray_of(position);
@@ -60,6 +64,10 @@ void main() {
   if (any(lessThan(owner, block_low)) || any(greaterThanEqual(owner, block_high))) discard;
 #endif
   float size = (far - near) * ray.stretch;
+#ifdef MODULATED
+  // Less of the medium is as much of it on less of the way. One density a slab: that in its middle.
+  size *= min(length(gradient_at(index_at(ray.start + middle * ray.slope))) * modulation, 1.0);
+#endif
 #ifdef MODE_THICKNESS
   result = size;
 #else

@@ -61,6 +61,10 @@ bool shows(const Scene& scene, const SlicesPlan& plan, double least, double most
   return true;
 }
 
+bool has_gradients(const Scene& scene) {
+  return scene.shading != Shading::none || scene.modulation;
+}
+
 double volume(const std::vector<Block>& blocks) {
   double sum = 0;
   for (const Block& block : blocks) sum += (block.high - block.low).cast<double>().prod();
@@ -162,9 +166,10 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   if (medium_) names.emplace_back("NEEDS_MEDIUM");
   if (gl::has_scalar_target(scene_)) names.emplace_back("SCALAR_TARGET");
   if (points_) names.emplace_back("UNEVEN");
+  if (scene_.modulation) names.emplace_back("MODULATED");
+  if (has_gradients(scene_) && scene_.gradient == GradientOf::sobel) names.emplace_back("SOBEL");
   if (scene_.shading != Shading::none) {
     names.emplace_back("SHADING_SMOOTH");
-    if (scene_.gradient == GradientOf::sobel) names.emplace_back("SOBEL");
     if (scene_.lights) names.emplace_back("LIGHTS");
     if (plan_.light_map > 0) names.emplace_back("LIGHT_MAPS");
   }
@@ -186,6 +191,7 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   lights_.set_uniforms(program);
   // Of a medium there is one (plan_light).
   program.set("material", gl::material_texel(scene_, scene_.transfer_function.points()[0].value));
+  if (scene_.modulation) program.set("modulation", gl::modulation_factor(scene_, normalization_));
   const Eigen::Vector3i last = whole_grid(*scene_.grid).high;
   program.set("last_point", Eigen::Vector3f(last.cast<float>()));
   return program;
@@ -218,9 +224,9 @@ std::vector<Brick> SliceProjector::bricks(const GridView& view,
   const std::size_t most = plan_.slices.brick_bytes > 0
                                ? plan_.slices.brick_bytes / bytes_per_point(plan_.slices)
                                : std::numeric_limits<std::size_t>::max();
-  // The gradient of a surface is that between the points beside it.
+  // A gradient is that between the points beside it.
   const Eigen::Vector3i border = reach.value_or(Eigen::Vector3i::Zero()) +
-                                 Eigen::Vector3i::Constant(scene_.shading != Shading::none ? 1 : 0);
+                                 Eigen::Vector3i::Constant(has_gradients(scene_) ? 1 : 0);
   std::vector<Brick> result = make_bricks(*scene_.grid, border, most, context_.limits().table_3d);
   order_bricks(result, *scene_.grid, view);
   return result;

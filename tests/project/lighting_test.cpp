@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/errors.h"
 #include "project/compare.h"
 #include "project/light/phong.h"
 #include "project/render.h"
@@ -160,6 +161,104 @@ TEST(Lighting, MediaLitOnceASegmentAreTheSameOnOpenGl) {
   }
 }
 
+Image draw_by_tables(const Scene& scene, int n, int m, Layout layout = Layout::indexed) {
+  Request request;
+  request.projector = Projector::gl;
+  request.integrator = Integrator::table3d;
+  request.table_n = n;
+  request.table_m = m;
+  request.gl.layout = layout;
+  Stats stats;
+  return render(scene, plan(scene, request), stats);
+}
+
+// What the cpu projector integrates, OpenGL looks up (meissner2002, lum2004): the finer the tables,
+// the smaller the difference.
+TEST(Lighting, TablesOfLightComeToWhatTheCpuIntegrates) {
+  const mesh::TetMesh mesh = round_cube(5);
+  const preint::Material shiny{0.1, 0.5, 0.4, 30};
+  for (const Camera& camera : cameras(mesh)) {
+    Scene scene = tests::make_scene(mesh, Mode::full,
+                                    TransferFunction({{0.0, Color(0.9, 0.2, 0), 0, shiny},
+                                                      {1.5, Color(0.1, 0.9, 0.3), 2, shiny},
+                                                      {3, Color(0.2, 0.1, 0.9), 0.5, shiny}}),
+                                    kSize);
+    scene.camera = camera;
+    scene.lights = far_lights();
+    scene.lights->lights.emplace_back(PointLight{{0.2, 0.3, 0.6}, Color(0.8, 0.2, 0.2)});
+    for (const Shading shading : {Shading::weighted, Shading::interpolated}) {
+      scene.shading = shading;
+      const Image expected = draw(scene, Projector::cpu);
+      const double coarse = compare(draw_by_tables(scene, 24, 12), expected).rms;
+      const double fine = compare(draw_by_tables(scene, 192, 48), expected).rms;
+      fmt::print("{}: RMS {:.1e} with 24 x 24 x 12, {:.1e} with 192 x 192 x 48\n",
+                 to_string(shading), coarse, fine);
+      EXPECT_LT(fine, coarse / 3) << to_string(shading);
+      EXPECT_LE(compare(draw_by_tables(scene, 192, 48), expected).max, 1e-3) << to_string(shading);
+    }
+    // Without a table for colors there is one for the weight.
+    scene.shading = Shading::weighted;
+    EXPECT_LE(compare(draw(scene, Projector::gl), draw(scene, Projector::cpu)).max, 1e-3);
+  }
+}
+
+// Means of a material times the light of one color are the light of all its parts.
+TEST(Lighting, TablesAverageMaterials) {
+  const mesh::TetMesh mesh = round_cube(5);
+  Scene scene =
+      tests::make_scene(mesh, Mode::full,
+                        TransferFunction({{0.0, Color(0.9, 0.6, 0.2), 0.5, {0.4, 0.1, 0.1, 20}},
+                                          {1.5, Color(0.9, 0.6, 0.2), 2, {0, 0.9, 0, 20}},
+                                          {3, Color(0.9, 0.6, 0.2), 0.5, {0.1, 0.3, 0.6, 20}}}),
+                        kSize);
+  scene.lights = far_lights();
+  for (const Shading shading : {Shading::single, Shading::weighted}) {
+    scene.shading = shading;
+    EXPECT_LE(compare(draw(scene, Projector::gl), draw(scene, Projector::cpu)).max, 1e-3)
+        << to_string(shading);
+  }
+  scene.shading = Shading::interpolated;
+  EXPECT_LE(compare(draw(scene, Projector::gl), draw(scene, Projector::cpu)).max, 1e-2);
+}
+
+// The layouts of twelve vertices have one normal a cell, which lights all of a segment.
+TEST(Lighting, TablesOfLightServeAllLayouts) {
+  const mesh::TetMesh mesh = round_cube(5);
+  Scene scene = tests::make_scene(mesh, Mode::full, shells(0, 3), kSize);
+  std::vector<preint::ControlPoint> points = scene.transfer_function.points();
+  for (preint::ControlPoint& point : points) point.material = {};
+  scene.transfer_function = TransferFunction(points);
+  scene.gradient = GradientOf::cell;
+  scene.lights = far_lights();
+  for (const Shading shading : {Shading::weighted, Shading::interpolated}) {
+    scene.shading = shading;
+    const Image expected = draw_by_tables(scene, 128, 32);
+    EXPECT_EQ(compare(draw_by_tables(scene, 128, 32, Layout::strip), expected).max, 0);
+    EXPECT_LE(compare(draw_by_tables(scene, 128, 32, Layout::faces12), expected).rms, 1e-4);
+  }
+}
+
+TEST(Lighting, OpenGlTellsWhatItLacks) {
+  const mesh::TetMesh mesh = linear_cube();
+  Scene scene = tests::make_scene(mesh, Mode::full, shells(-1.6, 1.6), kSize);
+  scene.shading = Shading::weighted;
+  Request request;
+  request.projector = Projector::gl;
+  EXPECT_THROW((void)plan(scene, request), base::UsageError);  // several shininesses
+  std::vector<preint::ControlPoint> points = scene.transfer_function.points();
+  for (preint::ControlPoint& point : points) point.material.shininess = 9;
+  scene.transfer_function = TransferFunction(points);
+  EXPECT_NO_THROW((void)plan(scene, request));
+  for (const Shading shading : {Shading::surface, Shading::smooth}) {
+    scene.shading = shading;
+    EXPECT_THROW((void)plan(scene, request), base::UsageError) << to_string(shading);
+  }
+  scene.shading = Shading::interpolated;
+  EXPECT_EQ(plan(scene, request).integrator, Integrator::table3d);
+  request.integrator = Integrator::exact;
+  EXPECT_THROW((void)plan(scene, request), base::UsageError);
+}
+
 // One normal, light from far away, parallel rays: the light is the same along every ray, and every
 // way to light is exact.
 TEST(Lighting, AllWaysAgreeOnAConstantNormal) {
@@ -255,7 +354,7 @@ TEST(Modulation, ScalesTheExtinction) {
   std::vector<preint::ControlPoint> halved = tf.points();
   for (preint::ControlPoint& point : halved) point.extinction *= 0.5;
   for (const Mode mode : {Mode::full, Mode::emission, Mode::absorption}) {
-    for (const Projector projector : {Projector::cpu, Projector::reference}) {
+    for (const Projector projector : {Projector::cpu, Projector::reference, Projector::gl}) {
       Scene scene = tests::make_scene(mesh, mode, tf, kSize);
       const Image plain = draw(scene, projector);
       scene.modulation = 0.9 * kSlope.norm();
@@ -265,6 +364,40 @@ TEST(Modulation, ScalesTheExtinction) {
       EXPECT_LT(compare(draw(scene, projector), draw(half, projector)).max, 1e-5)
           << to_string(mode);
     }
+  }
+}
+
+// Gradients that differ from cell to cell, some above the modulation, some below.
+TEST(Modulation, IsTheSameOnOpenGl) {
+  const mesh::TetMesh mesh =
+      tests::box(Vector3d::Constant(-1), Vector3d::Constant(1), 5, 5, 5,
+                 [](const Vector3d& p) { return 1.5 + p.x() * p.x() * p.y() + 0.2 * p.z(); });
+  const auto draw_gl = [](const Scene& scene, Layout layout, std::optional<Integrator> integrator,
+                          std::optional<std::size_t> memory = {}) {
+    Request request;
+    request.projector = Projector::gl;
+    request.gl.layout = layout;
+    request.gl.memory = memory;
+    request.integrator = integrator;
+    Stats stats;
+    const Image image = render(scene, plan(scene, request), stats);
+    EXPECT_EQ(stats.work.count(Effect::modulation), has_faces12(layout) ? 0U : 1U);
+    return image;
+  };
+  for (const Mode mode : {Mode::full, Mode::emission, Mode::absorption}) {
+    Scene scene = tests::make_scene(mesh, mode, shells(0.4, 2.6), kSize);
+    scene.modulation = 0.8;
+    const Image expected = draw(scene, Projector::reference);
+    EXPECT_LE(compare(draw(scene, Projector::cpu), expected).max, 1e-5);
+    EXPECT_LE(compare(draw_gl(scene, Layout::indexed, {}), expected).max, 2e-5) << to_string(mode);
+    EXPECT_LE(compare(draw_gl(scene, Layout::indexed, {}, 3000), expected).max, 2e-5);
+    EXPECT_LE(compare(draw_gl(scene, Layout::faces12, {}), expected).rms, 1e-4) << to_string(mode);
+    EXPECT_LE(compare(draw_gl(scene, Layout::faces12_short, {}), expected).rms, 1e-3);
+    const Integrator table = mode == Mode::full ? Integrator::table3d : Integrator::table2d;
+    EXPECT_LE(compare(draw_gl(scene, Layout::indexed, table), expected).rms, 3e-3);
+    // It does something.
+    scene.modulation.reset();
+    EXPECT_GE(compare(draw(scene, Projector::cpu), expected).rms, 1e-2);
   }
 }
 

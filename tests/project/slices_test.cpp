@@ -212,6 +212,65 @@ TEST(Slices, LitMediaComeNearToLightAtEveryPoint) {
   }
 }
 
+// A gradient of half the modulation halves the extinction; one above it leaves it.
+TEST(Slices, ModulationScalesTheExtinction) {
+  const Eigen::Vector3d slope(0.3, -0.2, 0.5);
+  const preint::TransferFunction tf({{-1, {1, 0, 0}, 0.5}, {0, {0, 1, 0}, 2}, {1, {1, 1, 1}, 1}});
+  std::vector<preint::ControlPoint> points = tf.points();
+  for (preint::ControlPoint& point : points) point.extinction *= 0.5;
+  for (const bool even : {true, false}) {
+    const mesh::TetMesh mesh =
+        grid_mesh([&](const Eigen::Vector3d& p) { return slope.dot(p); }, even);
+    for (const Mode mode : {Mode::full, Mode::emission, Mode::absorption}) {
+      const Scene half = grid_scene(mesh, mode, preint::TransferFunction(points));
+      Scene scene = grid_scene(mesh, mode, tf);
+      const Image plain = expected_grid(scene);
+      scene.modulation = 0.9 * slope.norm();
+      EXPECT_LT(difference(expected_grid(scene), plain).largest, 1e-7);
+      scene.modulation = 2 * slope.norm();
+      const Image expected = expected_grid(half);
+      EXPECT_LT(difference(expected_grid(scene), expected).largest, 1e-7) << to_string(mode);
+      // Each is a shader of its own, and long to compile.
+      for (const Stack stack : kStacks) {
+        if (stack != Stack::planes && !(even && mode == Mode::full)) continue;
+        SlicesRequest request;
+        request.stack = stack;
+        request.slices = 40;
+        EXPECT_LT(difference(draw_slices(scene, request), expected).largest, 2e-5)
+            << to_string(mode) << ' ' << to_string(stack) << ' ' << even;
+      }
+    }
+  }
+}
+
+TEST(Slices, ModulatedBricksHaveNoSeams) {
+  const mesh::TetMesh mesh = grid_mesh(bent);
+  Scene scene = grid_scene(mesh, Mode::emission, smooth_medium());
+  scene.modulation = 1.5;
+  SlicesRequest request;
+  request.slices = 40;
+  const Image whole = draw_slices(scene, request);
+  request.brick_bytes = 1000;
+  EXPECT_LT(difference(draw_slices(scene, request), whole).largest, 5 * kSliceRounding);
+}
+
+// One density a slab: better where slabs are short.
+TEST(Slices, ModulatedMediaComeNearToTheModulationOfEveryPoint) {
+  const mesh::TetMesh mesh = grid_mesh(bent);
+  Scene scene = grid_scene(mesh, Mode::full, smooth_medium());
+  const Image plain = expected_grid(scene);
+  scene.modulation = 1.5;
+  const Image reference = expected_grid(scene);
+  EXPECT_GT(difference(plain, reference).rms, 0.02);
+  SlicesRequest request;
+  request.slices = 50;
+  const double coarse = difference(draw_slices(scene, request), reference).rms;
+  request.slices = 200;
+  const double fine = difference(draw_slices(scene, request), reference).rms;
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, coarse / 3);
+}
+
 TEST(Slices, SurfacesHaveLightsAndMaterials) {
   const mesh::TetMesh mesh = grid_mesh(bent);
   const preint::Material dull{0.2, 0.8, 0, 8};
