@@ -93,6 +93,10 @@ void CellProjector::set_up() {
   if (scene_.shading != Shading::none) set_up_light();
   if (scene_.mode != Mode::thickness && scene_.mode != Mode::iso) set_up_medium();
   if (plan_.table_n > 0) set_up_table();
+  if (scene_.mode == Mode::mip && scene_.mip_of == MipOf::field) {
+    order_ = highest_first(cells_);
+    set_up_.add(Effect::cells, bytes_of(order_));
+  }
 }
 
 void CellProjector::set_up_light() {

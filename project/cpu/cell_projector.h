@@ -66,7 +66,7 @@ class CellProjector {
   std::optional<sort::CellSorter> sorter_;
   std::vector<std::uint32_t> sorted_cells_;   // where cells are sorted: those of the sorter
   std::vector<std::uint32_t> drawn_of_cell_;  // ... and where they are among the drawn ones
-  std::vector<std::uint32_t> order_;          // drawn cells
+  std::vector<std::uint32_t> order_;          // of drawn cells, where they are not drawn in theirs
   ViewPoints points_;
   TileBins bins_;
 };

@@ -1,5 +1,7 @@
 #include "project/cpu/drawn_cells.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/parallel.h"
@@ -29,6 +31,33 @@ bool sort_vertices(mesh::Cell& cell) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> highest_first(const DrawnCells& cells) {
+  constexpr int kSteps = 64;
+  std::vector<std::uint8_t> steps(cells.size());
+  base::parallel_ranges(cells.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      float most = -1;
+      if (!cells.cell_values.empty()) {
+        most = cells.cell_values[i];
+      } else {
+        for (const std::uint32_t v : cells.cells[i].vertices) {
+          most = std::max(most, cells.point_values[v]);
+        }
+      }
+      const auto below = static_cast<int>(0.5F * (1 - most) * kSteps);
+      steps[i] = static_cast<std::uint8_t>(std::clamp(below, 0, kSteps - 1));
+    }
+  });
+  std::array<std::uint32_t, kSteps + 1> starts{};
+  for (const std::uint8_t step : steps) ++starts[step + 1U];
+  for (std::size_t step = 0; step < kSteps; ++step) starts[step + 1] += starts[step];
+  std::vector<std::uint32_t> result(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    result[starts[steps[i]]++] = static_cast<std::uint32_t>(i);
+  }
+  return result;
+}
 
 DrawnCells::DrawnCells(const Scene& scene) : scale(scene.field) {
   update(scene);

@@ -28,6 +28,12 @@ struct alignas(32) DrawnCell {
   bool mirrored = false;  ///< ascending order turns the cell inside out
 };
 
+struct DrawnCells;
+
+/// Numbers of drawn cells by their largest values: roughly, in 64 steps, the highest first; cells
+/// of a step in their own order, neighbours near each other. In parallel; cost: linear.
+[[nodiscard]] std::vector<std::uint32_t> highest_first(const DrawnCells& cells);
+
 /// The cells of a scene that can show anything, as the kernels read them.
 struct DrawnCells {
   /// Takes those of `shown_cells`.

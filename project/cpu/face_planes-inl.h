@@ -24,11 +24,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DoubleTag = hn::CappedTag<double, 8>;
 inline constexpr std::size_t kBatch = hn::MaxLanes(DoubleTag());
 
-/// A function that is linear over the tile: start + dx X + dy Y, (X, Y) from the tile's middle.
-struct Planes {
-  alignas(64) std::array<std::array<double, kBatch>, 4> start;  // [face][cell]
-  alignas(64) std::array<std::array<double, kBatch>, 4> dx;
-  alignas(64) std::array<std::array<double, kBatch>, 4> dy;
+/// Functions that are linear over the tile: start + dx X + dy Y, (X, Y) from the tile's middle.
+template <class T>
+struct PlanesOf {
+  alignas(64) std::array<std::array<T, kBatch>, 4> start;  // [face][cell]
+  alignas(64) std::array<std::array<T, kBatch>, 4> dx;
+  alignas(64) std::array<std::array<T, kBatch>, 4> dy;
+};
+struct Planes : PlanesOf<double> {
+  PlanesOf<float> rounded;
 };
 
 /// The faces of a batch of cells. Face k lies opposite the cell's vertex k (ascending order).
@@ -178,6 +182,10 @@ class FaceSetup {
     hn::Store(start, kD, planes.start[k].data());
     hn::Store(dx, kD, planes.dx[k].data());
     hn::Store(dy, kD, planes.dy[k].data());
+    const hn::Rebind<float, DoubleTag> f;
+    hn::Store(hn::DemoteTo(f, start), f, planes.rounded.start[k].data());
+    hn::Store(hn::DemoteTo(f, dx), f, planes.rounded.dx[k].data());
+    hn::Store(hn::DemoteTo(f, dy), f, planes.rounded.dy[k].data());
   }
 
   /// Sets bit k of those cells that the mask holds for.

@@ -222,9 +222,8 @@ class TileRaster {
   };
 
   static HWY_INLINE Plane plane(const Planes& planes, std::size_t face, std::size_t i) {
-    return {set(static_cast<float>(planes.start[face][i])),
-            set(static_cast<float>(planes.dx[face][i])),
-            set(static_cast<float>(planes.dy[face][i]))};
+    return {set(planes.rounded.start[face][i]), set(planes.rounded.dx[face][i]),
+            set(planes.rounded.dy[face][i])};
   }
 
   template <std::size_t kFaces>
@@ -279,6 +278,7 @@ class TileRaster {
     first_y_ = std::max(bounds.first_y - tile_y_, 0) / kBlockHeight;
     last_x_ = std::min(bounds.last_x - tile_x_, tile_size_ - 1) / kBlockWidth;
     last_y_ = std::min(bounds.last_y - tile_y_, tile_size_ - 1) / kBlockHeight;
+    if (!is_wanted()) return;
     if constexpr (Shader::kValues) set_value_range(drawn.vertices);
     silhouette_.count = 0;
     if (kPerspective && front == 0) {
@@ -298,6 +298,17 @@ class TileRaster {
       for (std::size_t k = 0; k < 4; ++k) load_exact_planes(face[k], i, k, planes);
       draw_blocks<4, true>(planes, second, third);
     }
+  }
+
+  /// Whether any block of the cell in work is.
+  [[nodiscard]] HWY_INLINE bool is_wanted() const {
+    const int columns = tile_size_ / kBlockWidth;
+    for (int by = first_y_; by <= last_y_; ++by) {
+      for (int bx = first_x_; bx <= last_x_; ++bx) {
+        if (shader_.wants(static_cast<std::size_t>(by * columns + bx))) return true;
+      }
+    }
+    return false;
   }
 
   HWY_NOINLINE void find_silhouette(std::size_t i) {

@@ -170,11 +170,30 @@ class SingleColorShader : public AbsorptionShader {
   std::array<float, 3> color_;
 };
 
-/// The color of the largest value.
+/// The color of the largest value. Where all rays of a block have met as much as a cell holds, the
+/// cell is passed over: cells that hold the most come first (see CellProjector).
 class FieldMaximumShader : public MediumShader {
  public:
   FieldMaximumShader(const Picture& picture, int, int, float* largest)
-      : MediumShader(picture), largest_(largest, kNone) {}
+      : MediumShader(picture), points_(picture.points->exact.data()), largest_(largest, kNone) {}
+
+  HWY_INLINE bool begin(std::uint32_t cell) {
+    (void)MediumShader::begin(cell);
+    float most = kNone;
+    if (of_cells_) {
+      most = cells_.cell_values[cell];
+    } else {
+      for (const std::uint32_t v : cells_.cells[cell].vertices) {
+        most = std::max(most, static_cast<float>(points_[v].value));
+      }
+    }
+    most_ = set(most);
+    return true;
+  }
+  [[nodiscard]] HWY_INLINE bool wants(std::size_t block) const {
+    const Float before = hn::Load(FloatTag(), largest_.at(block, 0));
+    return !hn::AllTrue(FloatTag(), hn::Le(most_, before));
+  }
 
   HWY_INLINE void add(std::size_t block, Lanes covered, const BlockSegments& segments) {
     const BlockSegments s = with_cell_value(segments);
@@ -190,7 +209,9 @@ class FieldMaximumShader : public MediumShader {
 
  private:
   static constexpr float kNone = -16;  // below every scaled value
+  const ViewPoint* points_;
   BlockSums<1> largest_;
+  Float most_ = set(kNone);  // in the cell in work
 };
 
 /// The largest color of each channel (weiler2002 section 5.1): at one end of a segment's part in an

@@ -319,6 +319,19 @@ TEST(Cpu, ProjectorDrawsManyViews) {
   }
 }
 
+/// Cells that hold no more than what all rays of a block have met are passed over.
+TEST(Cpu, LargestValuesHideTheRest) {
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 50000);
+  Scene scene = make_scene(mesh, Mode::thickness, preint::preset("viridis", 0, 1, 4), 200);
+  Stats all;
+  (void)draw(scene, &all);
+  scene.mode = Mode::mip;
+  Stats largest;
+  (void)draw(scene, &largest);
+  EXPECT_GT(largest.fragments, 1000U);
+  EXPECT_LT(2 * largest.fragments, all.fragments);
+}
+
 /// A projector that is told of other values, colors and surfaces draws what a new one would.
 TEST(Cpu, UpdatesDrawWhatANewProjectorDraws) {
   const mesh::TetMesh mesh =
