@@ -146,17 +146,18 @@ class ApproximateMedium : public MediumShader {
 
   /// Color and extinction at values of the cell in work.
   [[nodiscard]] HWY_INLINE std::array<Float, 4> at(Float value) const {
-    std::array<Float, 4> result;
-    for (std::uint32_t k = range_.first; k <= range_.last; ++k) {
+    const auto in = [&](const MediumInterval& interval) HWY_ATTR {
+      const Float inside = hn::Min(hn::Max(value, set(interval.low)), set(interval.high));
+      const Float t = position(interval, inside);
+      return std::array<Float, 4>{color(interval, 0, t), color(interval, 1, t),
+                                  color(interval, 2, t), extinction(interval, t)};
+    };
+    std::array<Float, 4> result = in(medium_.intervals()[range_.first]);
+    for (std::uint32_t k = range_.first + 1; k <= range_.last; ++k) {
       const MediumInterval& interval = medium_.intervals()[k];
-      const Float low = set(interval.low);
-      const Float t = position(interval, hn::Min(hn::Max(value, low), set(interval.high)));
-      const Lanes here = hn::Le(low, value);
-      const auto take = [&](std::size_t c, Float found) HWY_ATTR {
-        result[c] = k == range_.first ? found : hn::IfThenElse(here, found, result[c]);
-      };
-      for (std::size_t c = 0; c < 3; ++c) take(c, color(interval, c, t));
-      take(3, extinction(interval, t));
+      const Lanes here = hn::Le(set(interval.low), value);
+      const std::array<Float, 4> found = in(interval);
+      for (std::size_t c = 0; c < 4; ++c) result[c] = hn::IfThenElse(here, found[c], result[c]);
     }
     return result;
   }
