@@ -37,10 +37,6 @@ bool is_surfaces(const Scene& scene) {
   return scene.mode == Mode::iso;
 }
 
-bool is_field_maximum(const Scene& scene) {
-  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
-}
-
 /// Counts the parts of a picture, as planned_effects explains.
 class Census {
  public:
@@ -143,8 +139,10 @@ EffectPlan cells(const Census& census) {
   const bool of_points = scene.field.location == mesh::Location::point;
   std::optional<std::size_t> bytes;
   if (census.is_cpu()) {
-    // A cell, its number and its value; a point in doubles and in floats, and its value.
-    bytes = census.cells() * (32 + 4 + (of_points ? 0 : 4)) +
+    // A cell, its number, its place in another order and its value; a point in doubles and in
+    // floats, and its value.
+    const std::size_t place = is_field_maximum(scene) ? 4 : 0;
+    bytes = census.cells() * (32 + 4 + place + (of_points ? 0 : 4)) +
             census.points() * (32 + 16 + (of_points ? 4 : 0));
   } else if (census.is_gl() && has_faces12(census.plan().gl.layout)) {
     bytes = census.cells() * faces12_bytes(census.plan().gl.layout);
@@ -194,8 +192,9 @@ EffectPlan medium(const Census& census) {
           ? "the color of one value a ray"
           : fmt::format("{} control points", scene.transfer_function.points().size());
   if (census.is_cpu()) {
-    return yes(Effect::medium, why, 48 * intervals + 8 * census.cells(),
-               census.milliseconds(kCellIntervals * static_cast<double>(census.cells())));
+    const std::size_t cells = is_field_maximum(scene) ? 0 : census.cells();
+    return yes(Effect::medium, why, 48 * intervals + 8 * cells,
+               census.milliseconds(kCellIntervals * static_cast<double>(cells)));
   }
   return yes(Effect::medium, why);
 }

@@ -19,8 +19,7 @@ constexpr int kLargestTable2d = 8192;
 constexpr int kLargestTable3d = 512;
 
 bool needs_integral(const Scene& scene) {
-  const bool field_maximum = scene.mode == Mode::mip && scene.mip_of == MipOf::field;
-  return !field_maximum && scene.mode != Mode::thickness;
+  return !is_field_maximum(scene) && scene.mode != Mode::thickness;
 }
 
 /// That the projector has another integrator than the exact one.

@@ -80,6 +80,11 @@ struct Scene {
          (scene.shading != Shading::smooth && scene.gradient == GradientOf::cell);
 }
 
+/// Whether the largest value of each ray is sought, not the largest color.
+[[nodiscard]] constexpr bool is_field_maximum(const Scene& scene) {
+  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
+}
+
 /// Whether a medium is lit.
 [[nodiscard]] constexpr bool is_lit_medium(const Scene& scene) {
   return scene.mode == Mode::full && scene.shading != Shading::none;

@@ -93,7 +93,7 @@ void CellProjector::set_up() {
   if (scene_.shading != Shading::none) set_up_light();
   if (scene_.mode != Mode::thickness && scene_.mode != Mode::iso) set_up_medium();
   if (plan_.table_n > 0) set_up_table();
-  if (scene_.mode == Mode::mip && scene_.mip_of == MipOf::field) {
+  if (is_field_maximum(scene_)) {
     order_ = highest_first(cells_);
     set_up_.add(Effect::cells, bytes_of(order_));
   }
@@ -112,7 +112,7 @@ void CellProjector::set_up_light() {
 void CellProjector::set_up_medium() {
   const base::Stopwatch clock;
   medium_.emplace(scene_.transfer_function, cells_.scale, radius_);
-  intervals_ = cell_intervals(*medium_, cells_);
+  if (!is_field_maximum(scene_)) intervals_ = cell_intervals(*medium_, cells_);
   set_up_.add(Effect::medium, bytes_of(medium_->intervals()) + bytes_of(intervals_),
               clock.milliseconds());
 }

@@ -41,7 +41,7 @@ struct Picture {
   std::span<const ClipPlane> clip;
   RayEnds ends;                    ///< of the image's pixels; none where no ray ends in the mesh
   const Medium* medium = nullptr;  ///< null in modes that have no use for it
-  std::span<const IntervalRange> intervals;  ///< of each drawn cell, where there is a medium
+  std::span<const IntervalRange> intervals;  ///< of each drawn cell, where segments are integrated
   std::span<const Surface> surfaces;         ///< mode iso
   const Lighting* lighting = nullptr;        ///< null without shading
   std::span<const ViewedLight> lights;       ///< of the lighting; none for a headlight

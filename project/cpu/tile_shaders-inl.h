@@ -177,8 +177,9 @@ class FieldMaximumShader : public MediumShader {
   FieldMaximumShader(const Picture& picture, int, int, float* largest)
       : MediumShader(picture), points_(picture.points->exact.data()), largest_(largest, kNone) {}
 
+  HWY_INLINE void prefetch(std::uint32_t) const {}
   HWY_INLINE bool begin(std::uint32_t cell) {
-    (void)MediumShader::begin(cell);
+    cell_ = cell;
     float most = kNone;
     if (of_cells_) {
       most = cells_.cell_values[cell];

@@ -10,10 +10,6 @@ bool is_lit(const Scene& scene) {
   return scene.shading != Shading::none && scene.field.location == mesh::Location::point;
 }
 
-bool is_field_maximum(const Scene& scene) {
-  return scene.mode == Mode::mip && scene.mip_of == MipOf::field;
-}
-
 }  // namespace
 
 const char* mode_switch(const Scene& scene) {

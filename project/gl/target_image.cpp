@@ -51,7 +51,7 @@ Texel target_texel(const Scene& scene, TargetFormat format) {
 }
 
 float empty_pixel(const Scene& scene) {
-  return scene.mode == Mode::mip && scene.mip_of == MipOf::field ? kNoValue : 0;
+  return is_field_maximum(scene) ? kNoValue : 0;
 }
 
 void read_tile(const Target& target, const Scene& scene, const Normalization& normalization,

@@ -332,6 +332,27 @@ TEST(Cpu, LargestValuesHideTheRest) {
   EXPECT_LT(2 * largest.fragments, all.fragments);
 }
 
+/// Besides the mesh: in all modes at most 64 bytes a cell, but for what orders fragments, which
+/// does not grow with the mesh but for a few numbers of each cell of the tiles in work.
+TEST(Cpu, HoldsLittleOfEachCell) {
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 150000);
+  const mesh::ScalarField field = mesh::select_scalar(mesh, "");
+  for (const Case& what : kCases) {
+    Scene scene =
+        make_scene(mesh, what.mode, preint::preset("viridis", field.min, field.max, 4), 512);
+    scene.mip_of = what.mip_of;
+    Stats stats;
+    (void)draw(scene, &stats);
+    std::size_t bytes = 0;
+    for (const auto& [effect, work] : stats.work) bytes += effect == Effect::order ? 0 : work.bytes;
+    EXPECT_LE(bytes, 64 * mesh.cells.size()) << what.name;
+    EXPECT_GT(bytes, 40 * mesh.cells.size()) << what.name;
+    if (stats.work.count(Effect::order) == 0) continue;
+    const std::size_t threads = static_cast<std::size_t>(stats.threads);
+    EXPECT_LE(stats.work.at(Effect::order).bytes, threads * 3000000) << what.name;
+  }
+}
+
 /// A projector that is told of other values, colors and surfaces draws what a new one would.
 TEST(Cpu, UpdatesDrawWhatANewProjectorDraws) {
   const mesh::TetMesh mesh =
