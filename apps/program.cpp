@@ -55,7 +55,7 @@ std::string version_text() {
       "\n  MIT                  fmt, JSON for Modern C++, expat, libcerf, Fontconfig, Mesa's "
       "OSMesa, EGL"
 #ifdef TETRAGLASS_WITH_WINDOW
-      ", Dear ImGui, stb"
+      ", Dear ImGui, stb, libX11"
       "\n  zlib                 GLFW, zlib"
 #else
       "\n  zlib                 zlib"

@@ -155,14 +155,15 @@ project::Plan Drawing::Work::make_plan(const project::Scene& scene,
 
 void Drawing::Work::read(const DrawRequest& request) {
   if (mesh_version_ == request.mesh_version) return;
+  mesh::ImportOptions options = request.arguments.import;
+  options.grid_only = draws_grid(request.arguments);
+  // What is shown stays where this fails.
+  mesh::Import import = import_and_tell(request.arguments.input, options);
   projector_.reset();
   facts_.reset();
   field_.reset();
-  mesh_version_.reset();
   scene_version_.reset();
-  mesh::ImportOptions options = request.arguments.import;
-  options.grid_only = draws_grid(request.arguments);
-  import_ = import_and_tell(request.arguments.input, options);
+  import_ = std::move(import);
   mesh_version_ = request.mesh_version;
 }
 

@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include "apps/view/display_loss.h"
 #include "base/errors.h"
 
 namespace tetraglass::apps::view {
@@ -49,6 +50,7 @@ WindowSystem::WindowSystem() {
         "no window can be opened here: {}; view needs a display, 'tetraglass render' does not",
         last_error()));
   }
+  end_with_the_display();
 }
 
 WindowSystem::~WindowSystem() {

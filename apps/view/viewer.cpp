@@ -49,7 +49,37 @@ Viewer::Viewer(RenderArguments arguments, std::vector<TypedOption> typed)
 void Viewer::view_changed() {
   verified_.reset();
   verify_ = 0;
+  refusal_.clear();
   pacing_.changed(now_ms_);
+}
+
+void Viewer::mesh_changes(bool other_file) {
+  if (!before_) {
+    before_ = Before{other_file, mesh_version_, arguments_, typed_, editor_, camera_, framing_};
+  }
+  before_->other_file = before_->other_file || other_file;
+  mesh_version_ = ++last_mesh_version_;
+}
+
+void Viewer::go_back(const std::string& reason) {
+  Before before = std::move(*before_);
+  before_.reset();
+  if (before.other_file) {
+    arguments_ = std::move(before.arguments);
+    typed_ = std::move(before.typed);
+    editor_ = std::move(before.editor);
+    camera_ = before.camera;
+    framing_ = before.framing;
+    ++framing_version_;
+  } else {
+    // What was edited meanwhile stays.
+    arguments_.import.time = before.arguments.import.time;
+    arguments_.projector = before.arguments.projector;
+  }
+  mesh_version_ = before.mesh_version;
+  ++scene_version_;
+  view_changed();
+  refusal_ = reason;
 }
 
 void Viewer::resize(int width, int height) {
@@ -104,6 +134,7 @@ void Viewer::set_framing(const Framing& framing) {
 }
 
 void Viewer::open(const std::string& file) {
+  mesh_changes(true);
   RenderArguments fresh;
   fresh.input = file;
   fresh.size = arguments_.size;
@@ -114,7 +145,6 @@ void Viewer::open(const std::string& file) {
   camera_.reset();
   framing_.reset();
   ++framing_version_;
-  ++mesh_version_;
   ++scene_version_;
   view_changed();
 }
@@ -196,8 +226,8 @@ void Viewer::follow_transfer_function() {
 }
 
 void Viewer::set_time_step(std::size_t step) {
+  mesh_changes(false);
   arguments_.import.time = fmt::format("index:{}", step);
-  ++mesh_version_;
   ++scene_version_;
   view_changed();
 }
@@ -208,9 +238,10 @@ void Viewer::next_time_step() {
 }
 
 void Viewer::set_projector(const std::string& projector) {
-  const bool drew_grid = draws_grid(arguments_);
+  RenderArguments changed = arguments_;
+  changed.projector = projector;
+  if (draws_grid(changed) != draws_grid(arguments_)) mesh_changes(false);  // read differently
   change_scene().projector = projector;
-  if (draws_grid(arguments_) != drew_grid) ++mesh_version_;  // read differently
 }
 
 std::optional<DrawRequest> Viewer::next_request() {
@@ -233,14 +264,17 @@ std::optional<DrawRequest> Viewer::next_request() {
 }
 
 void Viewer::accept(std::unique_ptr<Drawn> drawn) {
+  const bool wanted = drawn->mesh_version == mesh_version_;  // not of a file that was left
   error_ = drawn->error;
   if (!error_.empty()) {
     pacing_.failed();
+    if (wanted && before_) go_back(std::exchange(error_, {}));
     return;
   }
   pacing_.finished(drawn->draw_ms);
   note_rate();
-  if (drawn->mesh_version != mesh_version_) return;  // of a file that is no longer open
+  if (!wanted) return;
+  before_.reset();
   const bool framed = framing_ && drawn->framing_version == framing_version_;
   if (!camera_ || framed) {
     camera_ = drawn->camera;

@@ -51,7 +51,8 @@ class Viewer {
   void look_from(const Eigen::Vector3d& direction);
   [[nodiscard]] const std::optional<project::Camera>& camera() const { return camera_; }
 
-  /// Another file, by its defaults.
+  /// Another file, by its defaults. Where it, or a time step, cannot be read, everything stays as
+  /// it was and `refusal` says why.
   void open(const std::string& file);
   [[nodiscard]] const RenderArguments& arguments() const { return arguments_; }
   /// To change what is drawn, but not what is read.
@@ -90,6 +91,8 @@ class Viewer {
   [[nodiscard]] const Drawn* picture() const { return picture_.get(); }
   /// Why the last picture could not be drawn; empty where it could.
   [[nodiscard]] const std::string& error() const { return error_; }
+  /// Why what was to be read was not, until something changes; empty otherwise.
+  [[nodiscard]] const std::string& refusal() const { return refusal_; }
   /// Pictures a second while the view or the scene last moved; nothing before it did for a while.
   [[nodiscard]] std::optional<double> moving_rate() const;
   [[nodiscard]] const SceneFacts* facts() const { return facts_.get(); }
@@ -114,7 +117,20 @@ class Viewer {
   [[nodiscard]] std::vector<std::string> save_session() const;
 
  private:
+  /// What is gone back to where something else cannot be read.
+  struct Before {
+    bool other_file = false;
+    std::uint64_t mesh_version = 0;
+    RenderArguments arguments;
+    std::vector<TypedOption> typed;
+    TransferFunctionEditor editor;
+    std::optional<project::Camera> camera;
+    std::optional<Framing> framing;
+  };
+
   void view_changed();
+  void mesh_changes(bool other_file);
+  void go_back(const std::string& reason);
   void follow_transfer_function();
   void note_rate();
   [[nodiscard]] std::vector<std::string> save_beside(const std::string& output) const;
@@ -126,6 +142,7 @@ class Viewer {
   std::optional<Framing> framing_;
   std::uint64_t framing_version_ = 1;
   std::uint64_t mesh_version_ = 1;
+  std::uint64_t last_mesh_version_ = 1;
   std::uint64_t scene_version_ = 1;
   int width_ = 0;
   int height_ = 0;
@@ -138,6 +155,8 @@ class Viewer {
   std::shared_ptr<const SceneFacts> facts_;
   std::optional<project::Verification> verified_;
   std::string error_;
+  std::string refusal_;
+  std::optional<Before> before_;  // what was read last, while something else is being read
 };
 
 }  // namespace tetraglass::apps::view

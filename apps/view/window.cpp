@@ -93,6 +93,7 @@ class ViewerWindow {
   void show_notice() const;
   void follow_mouse();
   void follow_keys();
+  void follow_title();
   void perform(Action action);
   void copy_command();
   void save_session();
@@ -113,8 +114,8 @@ class ViewerWindow {
   bool panning_ = false;
   bool save_due_ = false;
   bool window_picture_due_ = false;
-  bool started_ = false;
   std::string notice_;
+  std::string titled_;  // the file that the title names
   HiddenWindow hidden_;
   Drawing drawing_;  // dies first: it wakes the window
 };
@@ -153,6 +154,7 @@ void ViewerWindow::run() {
     viewer_.tick(clock_.milliseconds());
     take_picture();
     follow_keys();
+    follow_title();
     if (window_.framebuffer().minCoeff() > 0) show_frame();
     start_drawing();
     perform_when_complete();
@@ -181,10 +183,13 @@ void ViewerWindow::take_picture() {
   if (!drawn) return;
   const std::exception_ptr failure = drawn->failure;
   viewer_.accept(std::move(drawn));
-  if (failure && !started_) std::rethrow_exception(failure);
+  if (failure) panel_.playing = false;
+  // Nothing to go back to.
+  if (failure && viewer_.picture() == nullptr && viewer_.refusal().empty()) {
+    std::rethrow_exception(failure);
+  }
   frames_left_ = kFramesAfterEvent;
   if (failure || viewer_.picture() == nullptr) return;
-  started_ = true;
   const Drawn& picture = *viewer_.picture();
   texture_.upload(picture.pixels, picture.width, picture.height, picture.coarseness > 1);
 }
@@ -219,8 +224,9 @@ void ViewerWindow::show_notice() const {
   if (picture != nullptr && picture->coarseness > 1) {
     text = fmt::format("1/{} of the resolution while moving", picture->coarseness);
   }
-  const bool error = !viewer_.error().empty();
-  if (error) text = viewer_.error();
+  if (!viewer_.refusal().empty()) text = viewer_.refusal();
+  if (!viewer_.error().empty()) text = viewer_.error();
+  const bool error = !viewer_.error().empty() || !viewer_.refusal().empty();
   if (text.empty()) return;
   const float em = ImGui::GetFontSize();
   const ImVec2 corner(static_cast<float>(place_.corner.x()) + em,
@@ -280,10 +286,7 @@ void ViewerWindow::follow_mouse() {
 }
 
 void ViewerWindow::follow_keys() {
-  for (const std::string& file : window_.take_dropped_files()) {
-    viewer_.open(file);
-    window_.set_title(title_of(file));
-  }
+  for (const std::string& file : window_.take_dropped_files()) viewer_.open(file);
   const bool typing = ImGui::GetIO().WantTextInput;
   for (const KeyPress& press : window_.take_keys()) {
     if (typing) continue;
@@ -291,6 +294,12 @@ void ViewerWindow::follow_keys() {
       if (control.key == press.key && control.control == press.control) perform(control.action);
     }
   }
+}
+
+void ViewerWindow::follow_title() {
+  if (titled_ == viewer_.arguments().input) return;
+  titled_ = viewer_.arguments().input;
+  window_.set_title(title_of(titled_));
 }
 
 void ViewerWindow::perform(Action action) {

@@ -445,7 +445,7 @@ TEST_F(CommandLine, VersionNamesWhatIsLinked) {
       {"libglfw", "GLFW"},         {"libstb", "stb"},
       {"libhwy", "Highway"},       {"libexpat", "expat"},
       {"libcerf", "libcerf"},      {"libz.", "zlib"},
-      {"libbz2", "bzip2"}};
+      {"libbz2", "bzip2"},         {"libX11", "libX11"}};
   // The compiler's and the system's own, whose licences ask for nothing here.
   const std::vector<std::string> own = {"libstdc++",  "libm.",  "libgcc_s", "libc.",   "ld-linux",
                                         "libpthread", "libdl.", "libasan",  "libubsan"};

@@ -141,7 +141,8 @@ TEST_F(ViewerTest, WhatIsRefusedIsTold) {
   EXPECT_TRUE(viewer.complete());
 }
 
-// Nothing of a file is read again until another one is opened; then its absence is told.
+// Nothing of a file is read again until another one is opened; then its absence is told, and
+// everything stays as it was.
 TEST_F(ViewerTest, AFileThatVanishes) {
   const std::string copy = folder().file("copy.vtu");
   fs::copy_file(file(), copy);
@@ -156,9 +157,18 @@ TEST_F(ViewerTest, AFileThatVanishes) {
   viewer.next_mode();
   finish(viewer);
   EXPECT_TRUE(viewer.complete()) << viewer.error();
-  viewer.open(copy);
+  const std::vector<std::string> command = viewer.command("a.png");
+  const std::string missing = folder().file("missing.vtu");
+  viewer.open(missing);
+  viewer.open(missing);  // before it is known that it is not there
   finish(viewer);
-  EXPECT_NE(viewer.error().find(copy), std::string::npos) << viewer.error();
+  EXPECT_TRUE(viewer.refusal().starts_with(missing)) << viewer.refusal();
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+  EXPECT_EQ(viewer.command("a.png"), command);
+  viewer.orbit({0.1, 0});
+  EXPECT_EQ(viewer.refusal(), "");
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
   viewer.open(file());
   finish(viewer);
   EXPECT_TRUE(viewer.complete()) << viewer.error();

@@ -68,7 +68,9 @@ class Beside {
 /// An X server without a screen, on a display that is free.
 class VirtualDisplay {
  public:
-  VirtualDisplay() : pipe_(make_pipe()), server_(server_words(), [] {}) {
+  /// `options`: more of Xvfb.
+  explicit VirtualDisplay(const std::vector<std::string>& options = {})
+      : pipe_(make_pipe()), server_(server_words(options), [] {}) {
     ::close(pipe_.second);
     char digit = 0;
     // The server writes the number when it is ready, and closes the pipe when it cannot start.
@@ -86,10 +88,13 @@ class VirtualDisplay {
     ::fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     return {ends[0], ends[1]};
   }
-  [[nodiscard]] std::vector<std::string> server_words() const {
-    return {"Xvfb",      "-displayfd", std::to_string(pipe_.second),
-            "-screen",   "0",          "1600x1000x24",
-            "-nolisten", "tcp",        "-noreset"};
+  [[nodiscard]] std::vector<std::string> server_words(
+      const std::vector<std::string>& options) const {
+    std::vector<std::string> words = {"Xvfb",      "-displayfd", std::to_string(pipe_.second),
+                                      "-screen",   "0",          "1600x1000x24",
+                                      "-nolisten", "tcp",        "-noreset"};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
   }
 
   std::pair<int, int> pipe_;

@@ -12,6 +12,7 @@
 
 #include "project/image_file.h"
 #include "tests/support/program.h"
+#include "tests/view/drag_source.h"
 #include "tests/view/virtual_display.h"
 
 namespace tetraglass::tests {
@@ -138,6 +139,20 @@ class WindowTest : public testing::Test {
             disk = dx * dx + dy * dy > kRadius * kRadius || is_white(x + dx, y + dy);
         }
         if (disk && (found.empty() || (found.back() - Eigen::Vector2i(x, y)).norm() > 5))
+          found.emplace_back(x, y);
+      }
+    }
+    return found;
+  }
+
+  /// Of the color of errors, within the smoothing of letters.
+  static std::vector<Eigen::Vector2i> red_pixels(const Image& window) {
+    std::vector<Eigen::Vector2i> found;
+    for (int y = 0; y < window.height; ++y) {
+      for (int x = 0; x < window.width; ++x) {
+        const float* pixel = window.pixel(x, y);
+        const Eigen::Vector3d color(pixel[0], pixel[1], pixel[2]);
+        if ((255 * color - Eigen::Vector3d(255, 150, 130)).cwiseAbs().maxCoeff() < 8)
           found.emplace_back(x, y);
       }
     }
@@ -277,16 +292,104 @@ TEST_F(WindowTest, PlaysTheTimeSteps) {
   quit();
 }
 
-// The display goes away under the window: a line, and an end that is no crash.
+// A step whose file is gone is told of, and the picture of the last one stays; the file of that one
+// is not needed any more.
+TEST_F(WindowTest, AFileOfATimeStepThatVanishes) {
+  ASSERT_EQ(run_program("sample sphere --cells 1000 -o '" + folder_.file("other.vtu") + "'").status,
+            0);
+  write_text(folder_.file("sphere.vtu - tetraglass.pvd"),
+             "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+             "<DataSet timestep=\"0\" file=\"sphere.vtu\"/>"
+             "<DataSet timestep=\"2\" file=\"other.vtu\"/></Collection></VTKFile>");
+  ASSERT_NO_FATAL_FAILURE(
+      start({"sphere.vtu - tetraglass.pvd", "--size", "200x500", "--time", "index:0"}));
+  const Image before = picture(ask("s"));
+  const Image clean = picture(ask("F12"));
+  fs::remove(folder_.file("sphere.vtu"));
+  fs::remove(folder_.file("other.vtu"));
+  ASSERT_EQ(xdotool("key space"), 0);
+  // The message stands on the lower left of the picture, in red.
+  EXPECT_TRUE(wait_until([&] {
+    const Image window = picture(ask("F12"));
+    return std::ranges::any_of(red_pixels(window),
+                               [](const Eigen::Vector2i& place) { return place.y() > 350; });
+  }));
+  EXPECT_TRUE(red_pixels(clean).empty());
+  const std::string command = ask("c");
+  EXPECT_NE(command.find("--time index:0"), std::string::npos) << command;
+  EXPECT_LE(difference(before, picture(ask("s"))), kOneOf255);
+  // It can be turned still, and the message goes.
+  ASSERT_EQ(xdotool("key 3"), 0);
+  EXPECT_TRUE(wait_until([&] { return red_pixels(picture(ask("F12"))).empty(); }));
+  EXPECT_GT(difference(before, picture(ask("s"))), 0.02);
+  quit();
+}
+
+// A file from a file manager opens by its defaults; one that is none leaves everything as it was.
+TEST_F(WindowTest, TakesFilesThatAreDropped) {
+  ASSERT_EQ(run_program("sample linear --cells 600 -o '" + folder_.file("a cube.vtu") + "'").status,
+            0);
+  write_text(folder_.file("notes.txt"), "no mesh");
+  ASSERT_NO_FATAL_FAILURE(open({"--mode", "emission", "--title", "kept"}));
+  const Image before = picture(ask("s"));
+  const std::string uri = "file://" + folder_.file("");
+  ASSERT_EQ(drop_on_window(display_->name(), "sphere.vtu - tetraglass", uri + "notes.txt\r\n"), "");
+  EXPECT_TRUE(wait_until([&] { return !red_pixels(picture(ask("F12"))).empty(); }));
+  EXPECT_LE(difference(before, picture(ask("s"))), kOneOf255);
+  const std::string same = ask("c");
+  EXPECT_NE(same.find("sphere.vtu"), std::string::npos) << same;
+  EXPECT_NE(same.find("--title kept"), std::string::npos) << same;
+
+  ASSERT_EQ(drop_on_window(display_->name(), "sphere.vtu - tetraglass", uri + "a%20cube.vtu\r\n"),
+            "");
+  const Image dropped = picture(ask("s"));
+  const std::string command = ask("c");
+  EXPECT_NE(command.find("a cube.vtu"), std::string::npos) << command;
+  EXPECT_EQ(xdotool("search --name 'a cube.vtu - tetraglass'"), 0);
+  EXPECT_EQ(command.find("emission"), std::string::npos) << command;
+  EXPECT_GT(difference(before, dropped), 0.02);
+  EXPECT_LE(difference(dropped, rendered(command, "dropped")), kOneOf255);
+  quit();
+}
+
+// The display goes away under the window, and its OpenGL with it: a line, and an end that is no
+// crash, at rest and while something is drawn.
 TEST_F(WindowTest, ADisplayThatVanishes) {
-  ASSERT_NO_FATAL_FAILURE(open({}));
-  (void)ask("s");
-  display_.reset();
-  ASSERT_TRUE(wait_until([&] { return !program_->running(); }));
-  EXPECT_EQ(program_->exit_status(), 1);
-  const std::vector<std::string> lines = lines_of(read_text(folder_.file("err")));
-  ASSERT_FALSE(lines.empty());
-  EXPECT_NE(lines.back().find("X connection"), std::string::npos) << lines.back();
+  for (const std::string projector : {"cpu", "gl"}) {
+    if (!display_) display_ = std::make_unique<VirtualDisplay>();
+    ASSERT_TRUE(display_->ready());
+    ASSERT_NO_FATAL_FAILURE(open({"--projector", projector}));
+    if (projector == "cpu") {
+      (void)ask("s");
+    } else {
+      ASSERT_EQ(xdotool("key 5 key 3 key 5"), 0);
+    }
+    display_.reset();
+    ASSERT_TRUE(wait_until([&] { return !program_->running(); }));
+    EXPECT_EQ(program_->exit_status(), 1) << projector;
+    const std::string err = read_text(folder_.file("err"));
+    EXPECT_NE(err.find("tetraglass: error: the display is gone, and the window with it\n"),
+              std::string::npos)
+        << err;
+    for (const std::string& line : lines_of(err))
+      EXPECT_TRUE(line.starts_with("tetraglass: ")) << line;
+  }
+}
+
+// A display without OpenGL: remote desktops, drivers that are not installed.
+TEST(Window, WithoutOpenGlThereIsOneLine) {
+  if (!is_installed("Xvfb")) GTEST_SKIP() << "Xvfb is not installed (scripts/setup does it)";
+  const TemporaryFolder folder;
+  const std::string mesh = folder.file("sphere.vtu");
+  ASSERT_EQ(run_program("sample sphere --cells 100 -o '" + mesh + "'").status, 0);
+  const VirtualDisplay display({"-extension", "GLX"});
+  ASSERT_TRUE(display.ready());
+  ::setenv("DISPLAY", display.name().c_str(), 1);
+  const ProgramRun run = run_program("view '" + mesh + "'");
+  ::unsetenv("DISPLAY");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(lines_of(run.err).size(), 1U) << run.err;
+  EXPECT_TRUE(run.err.starts_with("tetraglass: error: the display has no OpenGL 3.3")) << run.err;
 }
 
 TEST(Window, WithoutADisplayThereIsOneLine) {
