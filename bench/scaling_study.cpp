@@ -1,6 +1,7 @@
 // The native projector: what a frame costs against the number of cells, pixels and threads, and by
 // instruction set, and the memory that it takes besides the mesh. Prints Markdown; draws plots.
-//   scaling_study [cells|pixels|threads|instructions ...] [--most CELLS] [--plot FILE.svg]
+//   scaling_study [cells|pixels|threads|instructions ...] [--most CELLS] [--plots FOLDER]
+// FOLDER: of cells.svg and pixels.svg, of what is measured.
 // With 2e7 cells it needs some 4 GB of memory and minutes.
 
 #include <algorithm>
@@ -146,7 +147,7 @@ void print_cells(std::size_t most, bench::LogPlot& plot) {
   fmt::print("\n");
 }
 
-void print_pixels() {
+void print_pixels(bench::LogPlot& plot) {
   fmt::print(
       "## Pixels, sphere of 148,955 cells\n\n"
       "| size | mode | ms a frame | ns a pixel | fragments | ns a fragment |\n"
@@ -161,6 +162,7 @@ void print_pixels() {
                  cost.ms, 1e6 * cost.ms / (double{1} * size * size), cost.fragments,
                  1e6 * cost.ms / cost.fragments);
       std::fflush(stdout);
+      plot.add(medium.name, double{1} * size * size, cost.ms);
     }
   }
   fmt::print("\n");
@@ -219,14 +221,14 @@ void print_instructions() {
 
 int main(int argc, char** argv) {
   std::set<std::string> parts;
-  std::string plot_file;
+  std::string plots;
   double most = 2e7;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--most" && i + 1 < argc) {
       most = std::atof(argv[++i]);
-    } else if (argument == "--plot" && i + 1 < argc) {
-      plot_file = argv[++i];
+    } else if (argument == "--plots" && i + 1 < argc) {
+      plots = argv[++i];
     } else {
       parts.insert(argument);
     }
@@ -235,10 +237,14 @@ int main(int argc, char** argv) {
   try {
     fmt::print("Medians of {} frames of a turning camera, {} threads.\n\n", kFrames,
                tbb::info::default_concurrency());
-    bench::LogPlot plot("cells", "milliseconds a frame");
-    if (wants("cells")) print_cells(static_cast<std::size_t>(most), plot);
-    if (!plot_file.empty()) plot.write(plot_file);
-    if (wants("pixels")) print_pixels();
+    const auto study = [&](const char* part, const auto& print) {
+      if (!wants(part)) return;
+      bench::LogPlot plot(part, "milliseconds a frame");
+      print(plot);
+      if (!plots.empty()) plot.write(plots + "/" + part + ".svg");
+    };
+    study("cells", [&](bench::LogPlot& p) { print_cells(static_cast<std::size_t>(most), p); });
+    study("pixels", [](bench::LogPlot& p) { print_pixels(p); });
     if (wants("threads")) print_threads();
     if (wants("instructions")) print_instructions();
   } catch (const base::Error& error) {
