@@ -80,6 +80,18 @@ void plan_slab_table(const Scene& scene, const Request& request, Plan& plan) {
       plan.table_n));
 }
 
+/// lum2004's light comes from tables of segments, in OpenGL.
+Integrator default_integrator(const Scene& scene, const Plan& plan) {
+  if (!is_lit_medium(scene) || scene.shading != Shading::interpolated ||
+      scene.field.location != mesh::Location::point) {
+    return Integrator::exact;
+  }
+  if (plan.projector == Projector::gl) return Integrator::table3d;
+  const bool slabs =
+      plan.projector == Projector::slices && plan.slices.classify == Classify::integrated;
+  return slabs ? Integrator::table2d : Integrator::exact;
+}
+
 }  // namespace
 
 void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
@@ -92,11 +104,7 @@ void plan_integrator(const Scene& scene, const Request& request, Plan& plan) {
     plan.reasons.push_back("integrator: none needed for mode " + to_string(scene.mode));
     return;
   }
-  // lum2004's light comes from tables of segments.
-  const bool ramps = plan.projector == Projector::gl && is_lit_medium(scene) &&
-                     scene.shading == Shading::interpolated &&
-                     scene.field.location == mesh::Location::point;
-  plan.integrator = request.integrator.value_or(ramps ? Integrator::table3d : Integrator::exact);
+  plan.integrator = request.integrator.value_or(default_integrator(scene, plan));
   if (plan.integrator == Integrator::exact) {
     if (request.table_n != 0)
       throw base::UsageError("--table needs --integrator table2d or table3d");

@@ -47,7 +47,7 @@ bool reads_medium(const Scene& scene, const Plan& plan) {
 
 bool has_ramped_light(const Scene& scene, const Plan& plan) {
   return is_lit_medium(scene) && is_lit(scene) && scene.shading == Shading::interpolated &&
-         plan.integrator == Integrator::table3d;
+         (plan.integrator == Integrator::table3d || plan.integrator == Integrator::table2d);
 }
 
 bool has_material_table(const Scene& scene) {

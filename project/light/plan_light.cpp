@@ -56,14 +56,16 @@ void check_materials_of_surfaces(const Scene& scene) {
   }
 }
 
-/// Cube maps and the shaders of gl have highlights of one shininess.
-void check_shininess_of_medium(const Scene& scene) {
+/// Cube maps and the shaders have highlights of one shininess.
+void check_shininess_of_medium(const Scene& scene, const Plan& plan) {
   const std::vector<preint::ControlPoint>& points = scene.transfer_function.points();
   for (const preint::ControlPoint& point : points) {
     if (point.material.shininess != points[0].material.shininess) {
       throw base::UsageError(
-          "--projector gl has one shininess for a medium, and the transfer function has several: "
-          "use --projector cpu");
+          fmt::format("--projector {} has one shininess for a medium, and the transfer function "
+                      "has several: use --projector {}",
+                      to_string(plan.projector),
+                      plan.projector == Projector::slices ? "grid-reference" : "cpu"));
     }
   }
 }
@@ -75,7 +77,7 @@ void check_medium_of_gl(const Scene& scene, const Plan& plan) {
         "--projector gl lights the segments of a medium once or at both of their ends: use "
         "--shading single, weighted or interpolated, or --projector cpu");
   }
-  check_shininess_of_medium(scene);
+  check_shininess_of_medium(scene, plan);
   const bool is_constant = scene.field.min == scene.field.max;
   if (scene.shading == Shading::interpolated && plan.integrator != Integrator::table3d &&
       scene.field.location == mesh::Location::point && !is_constant) {
@@ -85,20 +87,27 @@ void check_medium_of_gl(const Scene& scene, const Plan& plan) {
   }
 }
 
-/// Each slab is lit once.
 void check_medium_of_slices(const Scene& scene, const Plan& plan) {
-  if (scene.shading != Shading::single) {
+  if (scene.shading != Shading::single && scene.shading != Shading::weighted &&
+      scene.shading != Shading::interpolated) {
     throw base::UsageError(
-        "--projector slices lights each slab of a medium once: use --shading single, or "
-        "--projector grid-reference");
-  }
-  if (!has_one_material(scene.transfer_function)) {
-    throw base::UsageError(
-        "--projector slices has one material for a medium, and the transfer function has several");
+        "--projector slices lights the slabs of a medium once or at both of their sides: use "
+        "--shading single, weighted or interpolated, or --projector grid-reference");
   }
   if (plan.slices.classify == Classify::pre) {
     throw base::UsageError(
         "--classify pre has colors without values: light needs post or integrated");
+  }
+  if (scene.shading != Shading::single && plan.slices.classify == Classify::post) {
+    throw base::UsageError("--shading " + to_string(scene.shading) +
+                           " is of the values at both sides of a slab, --classify post of that in "
+                           "the middle: use --classify integrated or --shading single");
+  }
+  check_shininess_of_medium(scene, plan);
+  if (scene.shading == Shading::interpolated && plan.integrator != Integrator::table2d) {
+    throw base::UsageError(
+        "--shading interpolated of --projector slices looks light up in tables: use --integrator "
+        "table2d, or leave it out");
   }
 }
 

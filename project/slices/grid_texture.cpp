@@ -53,7 +53,7 @@ Rounding rounding(TexelBits texels) {
 template <class Set>
 void for_points(const Block& block, const mesh::RectilinearGrid& grid, std::optional<int> layers,
                 Set set) {
-  const Vector3i size = block.high - block.low + Vector3i::Ones();
+  const Vector3i size = points_of(block);
   // In a texture the axis of the layers is the slowest, the others follow in their order.
   const int slow = layers.value_or(2);
   const int fast = slow == 0 ? 1 : 0;
@@ -76,7 +76,7 @@ void for_points(const Block& block, const mesh::RectilinearGrid& grid, std::opti
 /// The components of the texels, from 0 to 1 where they are to be rounded.
 std::vector<float> texels(const Scene& scene, const SlicesPlan& plan, const Block& block,
                           std::optional<int> layers, double length) {
-  const Vector3i size = block.high - block.low + Vector3i::Ones();
+  const Vector3i size = points_of(block);
   const std::size_t points = static_cast<std::size_t>(size.x()) *
                              static_cast<std::size_t>(size.y()) *
                              static_cast<std::size_t>(size.z());
@@ -168,6 +168,12 @@ void check_size(const gl::Context& context, const Vector3i& size, bool layers) {
   }
 }
 
+/// The size of a texture of so many points: in one of layers, their axis is the last.
+Vector3i stored(const Vector3i& points, std::optional<int> layers) {
+  const int slow = layers.value_or(2);
+  return {points[slow == 0 ? 1 : 0], points[slow == 2 ? 1 : 2], points[slow]};
+}
+
 void upload(const Functions& gl, GLuint name, const Vector3i& size, const Format& format,
             const SlicesPlan& plan, const std::vector<float>& numbers) {
   const auto send = [&](const void* pixels) {
@@ -187,38 +193,48 @@ void upload(const Functions& gl, GLuint name, const Vector3i& size, const Format
 }  // namespace
 
 GridTexture::GridTexture(const gl::Context& context, const Scene& scene, const SlicesPlan& plan,
-                         const Block& block, std::optional<int> layers, double length)
-    : texture_(make_texture(context, layers ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_3D)) {
-  const Vector3i size = block.high - block.low + Vector3i::Ones();
-  check_size(context, size, layers.has_value());
+                         const Vector3i& room, std::optional<int> layers)
+    : scene_(scene),
+      plan_(plan),
+      room_(room),
+      layers_(layers),
+      texture_(make_texture(context, layers ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_3D)) {
+  check_size(context, room, layers.has_value());
   check_compression(context, plan);
   const Functions& gl = context.gl();
   const GLuint name = texture_.get();
   const Format format = format_of(plan);
-  const int slow = layers.value_or(2);
-  const Vector3i stored(size[slow == 0 ? 1 : 0], size[slow == 2 ? 1 : 2], size[slow]);
-  gl.TextureStorage3D(name, 1, format.stored, stored.x(), stored.y(), stored.z());
-  upload(gl, name, stored, format, plan, texels(scene, plan, block, layers, length));
+  const Vector3i texels = stored(room, layers);
+  gl.TextureStorage3D(name, 1, format.stored, texels.x(), texels.y(), texels.z());
+  // Beside a block that is smaller, what is multiplied by 0 must be numbers.
+  if (!plan.compress) gl.ClearTexImage(name, 0, format.components, format.type, nullptr);
   const GLint filter = plan.filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
   gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
   gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
     gl.TextureParameteri(name, axis, GL_CLAMP_TO_EDGE);
   }
-  context.check("handing the grid to the shaders");
-  bytes_ = texture_bytes(plan, stored);
-  scale_ = size.cast<float>().cwiseInverse();
-  offset_ = (0.5F * Eigen::Vector3f::Ones() - block.low.cast<float>()).cwiseProduct(scale_);
-  if (layers) {
-    // Layers are counted, not measured.
-    scale_[*layers] = 1;
-    offset_[*layers] = -static_cast<float>(block.low[*layers]);
-    last_layer_ = size[*layers] - 1;
-  }
+  context.check("making a texture for the grid");
+  bytes_ = texture_bytes(plan, texels);
   const Rounding by = rounding(plan.texels);
   const double part = plan.texels == TexelBits::floats ? 1 : by.full / (by.most * by.step);
   const bool shifted = plan.classify != Classify::pre && plan.texels != TexelBits::floats;
   value_ = {static_cast<float>(shifted ? 2 * part : part), shifted ? -1.0F : 0.0F};
+}
+
+void GridTexture::load(const Block& block, double length) {
+  const gl::Context& context = texture_.context();
+  const Vector3i size = points_of(block);
+  upload(context.gl(), texture_.get(), stored(size, layers_), format_of(plan_), plan_,
+         texels(scene_, plan_, block, layers_, length));
+  context.check("handing the grid to the shaders");
+  scale_ = room_.cast<float>().cwiseInverse();
+  offset_ = (0.5F * Eigen::Vector3f::Ones() - block.low.cast<float>()).cwiseProduct(scale_);
+  if (!layers_) return;
+  // Layers are counted, not measured.
+  scale_[*layers_] = 1;
+  offset_[*layers_] = -static_cast<float>(block.low[*layers_]);
+  last_layer_ = size[*layers_] - 1;
 }
 
 void GridTexture::bind(const gl::Program& program, int unit) const {
@@ -228,6 +244,10 @@ void GridTexture::bind(const gl::Program& program, int unit) const {
   program.set("texel_offset", offset_);
   program.set("last_layer", static_cast<float>(last_layer_));
   program.set("texel_value", value_);
+}
+
+Vector3i points_of(const Block& block) {
+  return block.high - block.low + Vector3i::Ones();
 }
 
 std::size_t bytes_per_point(const SlicesPlan& plan) {

@@ -20,16 +20,16 @@ flat in vec3 block_high;
 #ifdef NEEDS_MEDIUM
 #include "medium.glsl"
 #endif
-#ifdef TABLE_2D
+#if defined(TABLE_2D) || defined(MATERIAL_TABLE)
 #include "slab_table.glsl"
 #endif
+#ifdef MODE_ISO
 #ifdef SHADING_SMOOTH
 #include "shade.glsl"
-
-uniform vec4 material;  // of the medium
 #endif
-#ifdef MODE_ISO
 #include "slab_surfaces.glsl"
+#elif defined(SHADING_SMOOTH)
+#include "slab_lighting.glsl"
 #endif
 
 vec4 light_of(float front, float back, float size) {
@@ -38,6 +38,8 @@ vec4 light_of(float front, float back, float size) {
   float depth = size * medium.a;
   float opacity = depth * opacity_of_depth(depth);
   return vec4(opacity * medium.rgb, opacity);
+#elif defined(RAMPED_LIGHT)
+  return vec4(0);  // parted before it is lit
 #elif defined(TABLE_2D)
   return slab_light(front, back, size);
 #elif defined(MODE_FULL) && defined(NEEDS_MEDIUM)
@@ -96,12 +98,10 @@ void main() {
 #elif defined(MODE_MIP_TRANSFER)
   result = vec4(largest_color(front, back), 1);
 #else
-  result = light_of(front, back, size);
 #ifdef SHADING_SMOOTH
-  // One normal a slab: that in its middle.
-  result.rgb = shade(result.rgb, result.a, Material(material.x, material.y, material.z, material.w),
-                     gradient_at(index_at(ray.start + middle * ray.slope)), camera_point(position, middle),
-                     ray.to_viewer);
+  result = lit_slab(light_of(front, back, size), front, back, size, ray, position, near, far);
+#else
+  result = light_of(front, back, size);
 #endif
 #endif
 #endif

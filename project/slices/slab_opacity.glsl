@@ -19,9 +19,14 @@ float opacity_of_depth(float depth) {
   return (1 - exp(-depth)) / depth;
 }
 
-vec4 slab_of(vec4 nominal, float size) {
-  float alpha = clamp(nominal.a, 0.0, 1.0);
+// What colors and opacities of a slab of the nominal length, this the opacity, are multiplied by.
+float slab_factor(float nominal, float size) {
+  float alpha = clamp(nominal, 0.0, 1.0);
   float factor = depth_of_opacity(alpha) * (size * nominal_inverse);
-  factor *= opacity_of_depth(alpha * factor);
-  return vec4(nominal.rgb * factor, min(alpha * factor, 1.0));
+  return factor * opacity_of_depth(alpha * factor);
+}
+
+vec4 slab_of(vec4 nominal, float size) {
+  float factor = slab_factor(nominal.a, size);
+  return vec4(nominal.rgb * factor, min(clamp(nominal.a, 0.0, 1.0) * factor, 1.0));
 }

@@ -7,12 +7,12 @@
 #include <Eigen/LU>
 
 #include "base/stopwatch.h"
-#include "preint/table.h"
 #include "project/gl/functions.inl"
 #include "project/gl/mesh_buffers.h"
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/slices/slab_switches.h"
 #include "project/slices/slab_triangles.h"
 
 namespace tetraglass::project::slices {
@@ -24,10 +24,6 @@ constexpr int kPointsUnit = gl::Units::kVertices;
 
 // Blocks farther off than this would have to be looked at for every one.
 constexpr int kFarthestReach = 2 * BlockRanges::kSide;
-
-bool is_uneven(const mesh::RectilinearGrid& grid) {
-  return !(grid.even[0] && grid.even[1] && grid.even[2]);
-}
 
 std::vector<float> places_of_points(const mesh::RectilinearGrid& grid) {
   std::vector<float> places;
@@ -61,10 +57,6 @@ bool shows(const Scene& scene, const SlicesPlan& plan, double least, double most
   return true;
 }
 
-bool has_gradients(const Scene& scene) {
-  return scene.shading != Shading::none || scene.modulation;
-}
-
 double volume(const std::vector<Block>& blocks) {
   double sum = 0;
   for (const Block& block : blocks) sum += (block.high - block.low).cast<double>().prod();
@@ -85,10 +77,11 @@ SliceProjector::SliceProjector(const gl::Context& context, const Scene& scene, c
       largest_tile_(std::min(largest_tile, context.limits().tile)),
       normalization_(scene),
       ranges_(*scene.grid, scene.field.values),
+      tables_(context, scene, plan_, normalization_),
       lights_(context, scene, plan),
       counter_(context) {
   const base::Stopwatch clock;
-  if (plan.slices.classify != Classify::pre && gl::reads_medium(scene, plan)) {
+  if (slab_reads_medium(scene, plan)) {
     medium_.emplace(context, scene.transfer_function, normalization_);
   }
   if (scene.mode == Mode::iso) {
@@ -126,54 +119,26 @@ const GridTexture& SliceProjector::texture(std::optional<int> layers) {
   const int key = layers.value_or(-1);
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
-  return textures_
-      .try_emplace(key, context_, scene_, plan_.slices, whole_grid(*scene_.grid), layers,
-                   nominal_length(layers) * normalization_.radius)
-      .first->second;
+  const Block all = whole_grid(*scene_.grid);
+  GridTexture& made =
+      textures_.try_emplace(key, context_, scene_, plan_.slices, points_of(all), layers)
+          .first->second;
+  made.load(all, nominal_length(layers) * normalization_.radius);
+  return made;
 }
 
-void SliceProjector::make_table(double length, Stats& stats) {
-  if (plan_.integrator != Integrator::table2d || (table_ && table_length_ == length)) return;
-  const base::Stopwatch clock;
-  const preint::Table2D table = preint::slab_table(
-      scene_.transfer_function, normalization_.field_value(-1), normalization_.field_value(1),
-      length * normalization_.radius, plan_.table_n);
-  table_.emplace(context_, gl::Texel::rgba32f, std::array<int, 3>{table.n, table.n, 0}, table.rgba,
-                 true);
-  table_length_ = length;
-  stats.tables_ms += clock.milliseconds();
+GridTexture& SliceProjector::brick_texture(const std::vector<DrawnBrick>& bricks) {
+  Eigen::Vector3i room = Eigen::Vector3i::Zero();
+  for (const DrawnBrick& brick : bricks) room = room.cwiseMax(points_of(brick.points));
+  if (!brick_texture_ || brick_texture_->room() != room) {
+    brick_texture_.reset();  // never two
+    brick_texture_.emplace(context_, scene_, plan_.slices, room, std::nullopt);
+  }
+  return *brick_texture_;
 }
 
 const gl::Program& SliceProjector::program(bool parallel, std::optional<int> layers, bool blocks) {
-  std::vector<std::string> names = {gl::mode_switch(scene_)};
-  const SlicesPlan& slices = plan_.slices;
-  if (parallel) names.emplace_back("PARALLEL");
-  if (blocks) names.emplace_back("BLOCKS");
-  if (layers) {
-    constexpr std::array<const char*, 3> kPlanes = {"PLANE yz", "PLANE xz", "PLANE xy"};
-    constexpr std::array<const char*, 3> kLayers = {"LAYER x", "LAYER y", "LAYER z"};
-    names.emplace_back(kPlanes[static_cast<std::size_t>(*layers)]);
-    names.emplace_back(kLayers[static_cast<std::size_t>(*layers)]);
-    names.push_back("SLAB_AXIS " + std::to_string(*layers));
-  } else if (slices.stack == Stack::shells && !parallel) {
-    names.emplace_back("SHELLS");
-  }
-  if (slices.filter == Filter::nearest) names.emplace_back("NEAREST");
-  if (slices.classify == Classify::pre) names.emplace_back("PRE_CLASSIFIED");
-  if (slices.classify == Classify::integrated) names.emplace_back("INTEGRATED");
-  if (slices.classify == Classify::post) names.emplace_back("LINEAR");
-  if (plan_.integrator == Integrator::table2d) names.emplace_back("TABLE_2D");
-  if (medium_) names.emplace_back("NEEDS_MEDIUM");
-  if (gl::has_scalar_target(scene_)) names.emplace_back("SCALAR_TARGET");
-  if (points_) names.emplace_back("UNEVEN");
-  if (scene_.modulation) names.emplace_back("MODULATED");
-  if (has_gradients(scene_) && scene_.gradient == GradientOf::sobel) names.emplace_back("SOBEL");
-  if (scene_.shading != Shading::none) {
-    names.emplace_back("SHADING_SMOOTH");
-    if (scene_.lights) names.emplace_back("LIGHTS");
-    if (plan_.light_map > 0) names.emplace_back("LIGHT_MAPS");
-  }
-  if (!scene_.clip.empty()) names.push_back("CLIP_PLANES " + std::to_string(scene_.clip.size()));
+  const std::vector<std::string> names = slab_switches(scene_, plan_, parallel, layers, blocks);
   std::string purpose;
   for (const std::string& name : names) purpose += name + ' ';
   if (const auto found = programs_.find(purpose); found != programs_.end()) return found->second;
@@ -184,12 +149,12 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
           .first->second;
   program.set("medium_pieces", gl::Units::kMediumPieces);
   program.set("medium_index", gl::Units::kMediumIndex);
-  program.set("table", gl::Units::kTable);
+  SlabTables::set_uniforms(program);
   program.set("surfaces", gl::Units::kSurfaces);
   program.set("surface_count", static_cast<int>(scene_.isosurfaces.size()));
   program.set("grid_points", kPointsUnit);
   lights_.set_uniforms(program);
-  // Of a medium there is one (plan_light).
+  // Of a medium there is one, or one shininess (plan_light).
   program.set("material", gl::material_texel(scene_, scene_.transfer_function.points()[0].value));
   if (scene_.modulation) program.set("modulation", gl::modulation_factor(scene_, normalization_));
   const Eigen::Vector3i last = whole_grid(*scene_.grid).high;
@@ -263,6 +228,7 @@ void SliceProjector::draw_tile(const GridView& view, const std::vector<Slab>& sl
                                const gl::ViewUniforms& uniforms, const gl::Tile& tile) {
   const std::optional<int> axis = layers(view);
   const Block all = whole_grid(*scene_.grid);
+  GridTexture* part = nullptr;
   for (const DrawnBrick& brick : bricks) {
     const gl::Program& shaders =
         program(view.parallel(), axis, brick.blocks.size() > 1 || !same(brick.blocks[0], all));
@@ -272,14 +238,12 @@ void SliceProjector::draw_tile(const GridView& view, const std::vector<Slab>& sl
     shaders.set("nominal_inverse", static_cast<float>(1 / length));
     if (same(brick.points, all)) {
       texture(axis).bind(shaders, kGridUnit);
-      draw_slabs(context_, shaders, view, *scene_.grid, slabs, brick.blocks, axis, tile);
     } else {
-      const GridTexture part(context_, scene_, plan_.slices, brick.points, axis,
-                             length * normalization_.radius);
-      part.bind(shaders, kGridUnit);
-      draw_slabs(context_, shaders, view, *scene_.grid, slabs, brick.blocks, axis, tile);
-      context_.gl().Finish();  // before the texture is deleted: one at a time
+      if (part == nullptr) part = &brick_texture(bricks);
+      part->load(brick.points, length * normalization_.radius);
+      part->bind(shaders, kGridUnit);
     }
+    draw_slabs(context_, shaders, view, *scene_.grid, slabs, brick.blocks, axis, tile);
   }
 }
 
@@ -300,12 +264,12 @@ Image SliceProjector::draw(const Frame& frame, Stats& stats) {
     const double length = nominal_length(layers(view));
     const std::vector<Slab> slabs =
         make_slabs(view, *scene_.grid, plan_.slices.stack, plan_.slices.distance > 0 ? length : 0);
-    make_table(length, stats);
+    tables_.make(length, stats);
     lights_.place(frame, uniforms, normalization_.radius);
     if (medium_) medium_->bind();
     if (surfaces_) surfaces_->bind(gl::Units::kSurfaces);
     if (points_) points_->bind(kPointsUnit);
-    if (table_) table_->bind(gl::Units::kTable);
+    tables_.bind();
     const int width = std::min(frame.width(), largest_tile_);
     const int height = std::min(frame.height(), largest_tile_);
     const gl::Target target(context_, gl::target_texel(scene_, TargetFormat::rgba32f), false, width,

@@ -15,6 +15,7 @@
 #include "project/slices/bricks.h"
 #include "project/slices/grid_texture.h"
 #include "project/slices/shown_blocks.h"
+#include "project/slices/slab_tables.h"
 #include "project/slices/slabs.h"
 #include "project/stats.h"
 
@@ -46,7 +47,6 @@ class SliceProjector {
   [[nodiscard]] double nominal_length(std::optional<int> layers) const;
   [[nodiscard]] const GridTexture& texture(std::optional<int> layers);
   [[nodiscard]] const gl::Program& program(bool parallel, std::optional<int> layers, bool blocks);
-  void make_table(double length, Stats& stats);
   /// How far from the middle of a slab, in points along each axis, its values are looked up; none:
   /// anywhere.
   [[nodiscard]] std::optional<Eigen::Vector3i> reach(const GridView& view) const;
@@ -59,6 +59,8 @@ class SliceProjector {
     Block points;
     std::vector<Block> blocks;
   };
+  /// For any of them, one at a time.
+  [[nodiscard]] GridTexture& brick_texture(const std::vector<DrawnBrick>& bricks);
   void draw_tile(const GridView& view, const std::vector<Slab>& slabs,
                  const std::vector<DrawnBrick>& bricks, const gl::ViewUniforms& uniforms,
                  const gl::Tile& tile);
@@ -70,15 +72,15 @@ class SliceProjector {
   int largest_tile_;
   gl::Normalization normalization_;
   BlockRanges ranges_;
+  SlabTables tables_;
   gl::LightTexels lights_;
   gl::FragmentCounter counter_;
   std::map<std::string, gl::Program> programs_;  // by the purpose that they were made for
   std::map<int, GridTexture> textures_;          // by the axis of the layers; -1: 3D
+  std::optional<GridTexture> brick_texture_;
   std::optional<gl::MediumBuffers> medium_;
   std::optional<gl::TextureBuffer> surfaces_;
   std::optional<gl::TextureBuffer> points_;  // of uneven axes
-  std::optional<gl::Table> table_;
-  double table_length_ = 0;  // of the slabs of the table
 };
 
 }  // namespace tetraglass::project::slices

@@ -9,7 +9,7 @@ namespace {
 
 std::size_t bytes_of(const Scene& scene, const SlicesPlan& plan) {
   const auto context = gl::Context::create(ContextKind::osmesa);
-  const GridTexture texture(*context, scene, plan, whole_grid(*scene.grid), 2, 1);
+  const GridTexture texture(*context, scene, plan, points_of(whole_grid(*scene.grid)), 2);
   return texture.bytes();
 }
 

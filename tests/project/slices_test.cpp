@@ -254,6 +254,22 @@ TEST(Slices, ModulatedBricksHaveNoSeams) {
   EXPECT_LT(difference(draw_slices(scene, request), whole).largest, 5 * kSliceRounding);
 }
 
+// A brick costs its lookups, not a shader: as many sizes of bricks as there are have one texture.
+TEST(Slices, LitModulatedBricksOfAnySizeHaveNoSeams) {
+  const mesh::TetMesh mesh = grid_mesh(bent, false);
+  Scene scene = grid_scene(mesh, Mode::full, smooth_medium());
+  scene.modulation = 1.5;
+  scene.gradient = GradientOf::sobel;
+  scene.shading = Shading::weighted;
+  SlicesRequest request;
+  request.slices = 40;
+  const Image whole = draw_slices(scene, request);
+  for (const std::size_t bytes : {1000U, 2500U}) {
+    request.brick_bytes = bytes;
+    EXPECT_LT(difference(draw_slices(scene, request), whole).largest, 5 * kSliceRounding) << bytes;
+  }
+}
+
 // One density a slab: better where slabs are short.
 TEST(Slices, ModulatedMediaComeNearToTheModulationOfEveryPoint) {
   const mesh::TetMesh mesh = grid_mesh(bent);
@@ -484,7 +500,7 @@ TEST(Slices, PlanRefusesWhatSlicesLack) {
   request.integrator.reset();
   scene.mode = Mode::full;
   scene.shading = Shading::smooth;
-  refused(scene, slices);  // lit once a slab
+  refused(scene, slices);  // lit once a slab, or at both of its sides
   scene.shading = Shading::single;
   EXPECT_TRUE(plan(scene, slices).gradients);
   request = slices;
