@@ -42,11 +42,11 @@ void add_fields(mesh::TetMesh& mesh, const std::vector<std::string>& definitions
 using Gradients = std::vector<Eigen::Vector3d> (*)(const mesh::TetMesh&, const mesh::ScalarField&);
 
 /// Adds the gradients of fields, each as 'gradient of NAME'.
-void add_gradients(mesh::TetMesh& mesh, const std::vector<std::string>& names,
-                   Gradients gradients) {
+void add_gradients(const std::string& file, mesh::TetMesh& mesh,
+                   const std::vector<std::string>& names, Gradients gradients) {
   const bool of_cells = gradients == mesh::cell_gradients;
   for (const std::string& name : names) {
-    const mesh::ScalarField field = mesh::select_scalar(mesh, name);
+    const mesh::ScalarField field = select_scalar_of(file, mesh, name);
     if (field.location == mesh::Location::cell) {
       throw base::InputError("the field '" + name +
                              "' is constant in each cell and has no gradient");
@@ -69,7 +69,7 @@ void import(const ImportArguments& arguments) {
   { const base::OutputFile probe(arguments.output); }  // tell before the work, not after it
   mesh::Import imported = import_and_tell(arguments.input, arguments.options);
   add_fields(imported.mesh, arguments.new_fields);
-  add_gradients(imported.mesh, arguments.gradients_of, gradients);
+  add_gradients(arguments.input, imported.mesh, arguments.gradients_of, gradients);
   mesh::write_vtu(imported.mesh, arguments.output);
   fmt::print(stderr, "{}: {} tetrahedra, {} points, {} fields\n", arguments.output,
              imported.mesh.cells.size(), imported.mesh.points.size(), imported.mesh.fields.size());

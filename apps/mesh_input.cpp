@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/errors.h"
+
 namespace tetraglass::apps {
 
 void warn(const std::string& text) {
@@ -19,6 +21,15 @@ mesh::Import import_and_tell(const std::string& file, const mesh::ImportOptions&
     fmt::print(stderr, "{}: {} inverted tetrahedra were turned\n", file, result.report.inverted);
   }
   return result;
+}
+
+mesh::ScalarField select_scalar_of(const std::string& file, const mesh::TetMesh& mesh,
+                                   const std::string& spec) {
+  try {
+    return mesh::select_scalar(mesh, spec);
+  } catch (const base::InputError& error) {
+    throw base::InputError(file + ": " + error.what());
+  }
 }
 
 }  // namespace tetraglass::apps

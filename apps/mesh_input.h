@@ -13,4 +13,8 @@ void warn(const std::string& text);
 [[nodiscard]] mesh::Import import_and_tell(const std::string& file,
                                            const mesh::ImportOptions& options);
 
+/// As mesh::select_scalar, with the file in its errors.
+[[nodiscard]] mesh::ScalarField select_scalar_of(const std::string& file, const mesh::TetMesh& mesh,
+                                                 const std::string& spec);
+
 }  // namespace tetraglass::apps

@@ -230,7 +230,7 @@ std::vector<double> chosen_weights(const OrderArguments& arguments, std::optiona
                                    const mesh::TetMesh& mesh) {
   if (arguments.weights.empty()) return {};
   if (method != Method::power) throw base::UsageError("--weights are for --sort power");
-  mesh::ScalarField field = mesh::select_scalar(mesh, arguments.weights);
+  mesh::ScalarField field = select_scalar_of(arguments.input, mesh, arguments.weights);
   if (field.location != mesh::Location::point) {
     throw base::UsageError("--weights needs a point field; '" + field.name + "' is one of cells");
   }

@@ -50,8 +50,7 @@ void check_outputs(const RenderArguments& arguments) {
     const std::string extension = extension_of(output);
     if (std::find(known.begin(), known.end(), extension) == known.end()) {
       throw base::WriteError(output, is_film(output) ? "is a film: it needs --orbit N or --time all"
-                                                     : "'" + extension + "' is no picture format" +
-                                                           base::suggestion(extension, known));
+                                                     : base::unknown_extension(extension, known));
     }
     const base::OutputFile probe(output);
   }

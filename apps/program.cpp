@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/described_commands.h"
 #include "apps/man_page.h"
@@ -90,8 +91,10 @@ const CLI::App& used_app(const CLI::App& program) {
 int report_usage(const CLI::App& program, const std::string& what) {
   const CLI::App& app = used_app(program);
   const std::string name = &app == &program ? "tetraglass" : "tetraglass " + app.get_name();
-  fmt::print(stderr, "tetraglass: error: {}\n{}\nall options: {} --help\n", what, app.get_footer(),
-             name);
+  const std::string footer = app.get_footer();
+  // What stands below the usage is for --help.
+  fmt::print(stderr, "tetraglass: error: {}\n{}\nall options: {} --help\n", what,
+             footer.substr(0, footer.find("\n\n")), name);
   return kWrongUsage;
 }
 
@@ -102,6 +105,9 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, int a
     return fmt::format("there is no subcommand '{}'{}", argv[1],
                        base::suggestion(argv[1], subcommand_names(program)));
   }
+  if (&app == &program && argc == 1) {
+    return fmt::format("a subcommand is required: {}", fmt::join(subcommand_names(program), ", "));
+  }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     for (const std::string& extra : app.remaining(true)) {
       if (extra.rfind("--", 0) == 0) {
@@ -110,6 +116,9 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, int a
                            base::suggestion(name, option_names(app)));
       }
     }
+    const bool has_output = app.get_option_no_throw("-o") != nullptr;
+    return fmt::format("'{}' is one word too many{}", app.remaining(true).front(),
+                       has_output ? "; what is to be written stands behind -o" : "");
   }
   return error.what();
 }

@@ -229,7 +229,7 @@ void add_scene_options(CLI::App* app, RenderArguments& a) {
                   "Rays that share a pixel evenly: 1 (default), 4, 9, 16 ... (smooth edges)");
   app->add_option("--field", a.field,
                   "Point or cell field; NAME:x|y|z|magnitude or NAME:INDEX of one with components. "
-                  "Default: the first scalar");
+                  "Default: the first scalar; z where there is no field");
   add_import_options(*app, a.import);
   app->add_option("--mode", a.mode, "full | emission | absorption | mip | iso | thickness")
       ->capture_default_str();

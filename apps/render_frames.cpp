@@ -81,7 +81,8 @@ mesh::ScalarField values_of_all_times(const RenderArguments& arguments, int step
   base::Progress progress("time steps", static_cast<std::uint64_t>(steps));
   for (int step = 0; step < steps; ++step) {
     const mesh::Import imported = import_step(arguments, step);
-    const mesh::ScalarField field = mesh::select_scalar(imported.mesh, arguments.field);
+    const mesh::ScalarField field =
+        select_scalar_of(arguments.input, imported.mesh, arguments.field);
     all.name = field.name;
     all.location = field.location;
     all.min = step == 0 ? field.min : std::min(all.min, field.min);
@@ -120,7 +121,7 @@ FramesDrawn draw_times(const RenderArguments& arguments, int steps, project::Sce
       imported = import_step(arguments, step);
       report.import.read_ms += imported.report.read_ms;
       report.import.decompose_ms += imported.report.decompose_ms;
-      scene.field = mesh::select_scalar(imported.mesh, arguments.field);
+      scene.field = select_scalar_of(arguments.input, imported.mesh, arguments.field);
       scene.drawable = mesh::find_drawable(imported.mesh, scene.field);
     }
     const base::Stopwatch clock;

@@ -247,7 +247,11 @@ bool draws_grid(const RenderArguments& arguments) {
 
 DrawnField select_field(const RenderArguments& arguments, const mesh::TetMesh& mesh) {
   DrawnField result;
-  result.field = mesh::select_scalar(mesh, arguments.field);
+  result.field = select_scalar_of(arguments.input, mesh, arguments.field);
+  if (arguments.field.empty() && mesh.fields.empty()) {
+    fmt::print(stderr, "{}: has no fields; drawn by '{}' (--field x, y, z or radius)\n",
+               arguments.input, result.field.name);
+  }
   if (draws_grid(arguments)) {
     result.drawable.nan = static_cast<std::size_t>(std::ranges::count_if(
         result.field.values, [](double value) { return !std::isfinite(value); }));

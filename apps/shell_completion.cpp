@@ -124,7 +124,7 @@ std::string zsh_value(const DescribedOption& option) {
   if (!option.choices.empty()) action = fmt::format("({})", fmt::join(option.choices, " "));
   // Words and files: an alternative of both.
   if (option.file && !option.choices.empty()) {
-    action = fmt::format("{{_alternative \"words:word:({})\" \"files:file:_files\"}}",
+    action = fmt::format("{{_alternative \"words\\:word\\:({})\" \"files\\:file\\:_files\"}}",
                          fmt::join(option.choices, " "));
   } else if (option.file) {
     action = "_files";
@@ -202,9 +202,9 @@ std::string fish(const std::vector<DescribedCommand>& commands) {
         line += fmt::format(" {} {}", is_long ? "-l" : "-s", name.substr(is_long ? 2 : 1));
       }
       if (!option.value.empty() && !option.argument) line += option.file ? " -r" : " -x";
+      // The text is of the option, not of each word: what would stand beside them is empty.
       if (!option.choices.empty())
-        line +=
-            fmt::format(" -a {}", quoted(fmt::format("{}", fmt::join(option.choices, " ")), "\\'"));
+        line += fmt::format(" -a '{}\\t'", fmt::join(option.choices, "\\t "));
       if (option.file) line += " -F";
       text += line + fmt::format(" -d {}\n", quoted(first_sentence(option.text), "\\'"));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,6 +74,18 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
       fmt::join(known.begin(), known.begin() + static_cast<long>(std::min(kMost, known.size())),
                 ", "),
       all ? "" : ", ...");
+}
+
+std::string unknown_extension(std::string_view extension, const std::vector<std::string>& known) {
+  const std::string there_are = fmt::format("; there are: {}", fmt::join(known, " "));
+  if (extension.empty()) return "its name has no extension" + there_are;
+  // They are so short that any two look alike at a distance of two.
+  std::vector<std::string> near;
+  std::ranges::copy_if(known, std::back_inserter(near), [&](const std::string& name) {
+    return edit_distance(extension, name) == 1;
+  });
+  return fmt::format("its extension '{}' is not known{}{}", extension,
+                     near.empty() ? "" : suggestion(extension, near), there_are);
 }
 
 }  // namespace tetraglass::base

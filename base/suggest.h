@@ -21,4 +21,9 @@ namespace tetraglass::base {
 /// "; there are none".
 [[nodiscard]] std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
+/// The same for the extension (".jpg", or "" of a name without one) of a file: "its extension
+/// '.jpg' is not known; there are: .png .exr"; first those that one letter makes of it.
+[[nodiscard]] std::string unknown_extension(std::string_view extension,
+                                            const std::vector<std::string>& known);
+
 }  // namespace tetraglass::base

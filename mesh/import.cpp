@@ -132,14 +132,7 @@ const Format& find_format(const std::string& file) {
                           "holds bare values; tell their layout by --raw WIDTHxHEIGHTxDEPTH:TYPE, "
                           "such as 64x64x64:uint8");
   }
-  const std::vector<std::string> known = readable_extensions();
-  const std::vector<std::string> near =
-      extension.empty() ? std::vector<std::string>{} : base::nearest_names(extension, known);
-  throw base::ReadError(
-      file,
-      fmt::format("its extension {} is not known{}; readable are {}",
-                  extension.empty() ? "is missing, or" : "'" + extension + "'",
-                  near.empty() ? "" : base::suggestion(extension, near), fmt::join(known, " ")));
+  throw base::ReadError(file, base::unknown_extension(extension, readable_extensions()));
 }
 
 /// That of bare values, which no extension tells.
@@ -153,7 +146,10 @@ const Format& raw_format() {
 void check_readable(const std::string& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw base::ReadError(file, "there is no such file");
+  if (!std::filesystem::exists(status)) {
+    throw base::ReadError(file, file == "-" ? "standard input is not read: write it to a file"
+                                            : "there is no such file");
+  }
   if (std::filesystem::is_directory(status)) throw base::ReadError(file, "is a folder");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, error) == 0) {
     throw base::ReadError(file, "is empty (0 bytes)");

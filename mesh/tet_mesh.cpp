@@ -154,10 +154,7 @@ std::optional<ScalarField> generate(const TetMesh& mesh, const std::string& name
 }
 
 ScalarField select_default(const TetMesh& mesh) {
-  if (mesh.fields.empty()) {
-    throw base::InputError(
-        "the mesh has no fields; the generated ones 'x', 'y', 'z' and 'radius' can be asked for");
-  }
+  if (mesh.fields.empty()) return *generate(mesh, "z");
   for (const Field& field : mesh.fields) {
     if (field.components == 1) return take(mesh, field, whole(field), field.name);
   }

@@ -42,11 +42,11 @@ using Box = Eigen::AlignedBox3d;
 ///
 /// NAME alone means the magnitude of a field of several components. Of a point and a cell field of
 /// the same name the point field is taken; NAME@point and NAME@cell (before the colon) choose. An
-/// empty `spec` takes the first scalar field, else the magnitude of the first one. Where no field
-/// of the mesh has that name, the generated point fields `x`, `y`, `z` and `radius` (distance from
-/// the centre of the bounds) can be asked for. Throws InputError with the nearest names where there
-/// is no such field or component, and where a field has another number of values than the mesh has
-/// points or cells.
+/// empty `spec` takes the first scalar field, else the magnitude of the first one, else `z`. Where
+/// no field of the mesh has that name, the generated point fields `x`, `y`, `z` and `radius`
+/// (distance from the centre of the bounds) can be asked for. Throws InputError with the nearest
+/// names where there is no such field or component, and where a field has another number of values
+/// than the mesh has points or cells.
 [[nodiscard]] ScalarField select_scalar(const TetMesh& mesh, const std::string& spec);
 
 /// Which cells can be drawn, and how many cannot.

@@ -33,8 +33,7 @@ std::string extension(const std::string& file) {
 }
 
 std::string unknown_extension(const std::string& file) {
-  return "'" + extension(file) + "' is no picture format" +
-         base::suggestion(extension(file), image_extensions());
+  return base::unknown_extension(extension(file), image_extensions());
 }
 
 WriteReport write_png(const Image& image, base::OutputFile& output, const Background& background) {

@@ -36,6 +36,10 @@ class CommandLine : public testing::Test {
 
   static std::string sphere() { return folder_->file("sphere.vtu"); }
 
+  static std::ptrdiff_t lines_of(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+  }
+
   /// The program fails with this status and one line that holds `part`.
   static void expect_error(const std::string& arguments, int status, const std::string& part) {
     const ProgramRun run = run_program(arguments);
@@ -46,7 +50,7 @@ class CommandLine : public testing::Test {
     const std::string line = run.err.substr(start, run.err.find('\n', start) - start);
     EXPECT_NE(line.find(part), std::string::npos) << arguments << "\n" << run.err;
     if (status == 1) {
-      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+      EXPECT_EQ(lines_of(run.err), 1) << run.err;
     }
     EXPECT_EQ(run.out, "") << arguments;
   }
@@ -112,7 +116,7 @@ TEST_F(CommandLine, CompareMeasuresTwoPictures) {
   EXPECT_TRUE(json["worst"]["x"].is_number_integer());
   const Json same = Json::parse(run_program("compare " + a + " " + a + " --json").out);
   EXPECT_EQ(same["max"], 0);
-  expect_error("compare " + a + " " + sphere(), 1, "no picture format");
+  expect_error("compare " + a + " " + sphere(), 1, "is not known; there are: .png .exr .npy");
   expect_error("compare " + a + " nothing.png", 1, "nothing.png");
 }
 
@@ -291,12 +295,29 @@ TEST_F(CommandLine, ErrorsSayWhichFileAndLeaveNothing) {
   write_text(output_.file("mesh.vtx"), whole);
   expect_error("render " + output_.file("mesh.vtx") + out, 1, ".vtu");
   expect_error("render " + sphere() + " --field sfere" + out, 1, "'sphere'");
+  expect_error("render " + sphere() + " --field sfere" + out, 1, "sphere.vtu");
   expect_error("render " + sphere() + " -o " + output_.file("x.jpg"), 1, ".png");
+  expect_error("render " + sphere() + " -o " + output_.file("x"), 1, "has no extension");
+  expect_error("render -" + out, 1, "standard input");
+  expect_error("info " + output_.file("") + "/", 1, "is a folder");
   expect_error("render " + sphere() + " -o " + output_.file("none/x.png"), 1, "none");
   expect_error("render " + sphere() + " --tf nothing.json" + out, 1, "nothing.json");
   for (const std::string name : {"empty.vtu", "junk.vtu", "cut.vtu", "mesh.vtx"})
     ::unlink(output_.file(name).c_str());
   EXPECT_TRUE(output_.is_empty());
+}
+
+// A mesh alone is drawn too: by its height, and this is told.
+TEST_F(CommandLine, AMeshWithoutFieldsIsDrawnByItsHeight) {
+  const std::string mesh = output_.file("one.node");
+  write_text(mesh, "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  write_text(output_.file("one.ele"), "1 4 0\n1 1 2 3 4\n");
+  const std::string render = "render " + mesh + " --size 24x18 -o ";
+  const ProgramRun run = run_program(render + output_.file("a.npy"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("one.node: has no fields; drawn by 'z'"), std::string::npos) << run.err;
+  ASSERT_EQ(run_program(render + output_.file("b.npy") + " --field z").status, 0);
+  EXPECT_EQ(read_text(output_.file("a.npy")), read_text(output_.file("b.npy")));
 }
 
 TEST_F(CommandLine, UnwritableOutputIsAnErrorBeforeTheWork) {
@@ -308,7 +329,9 @@ TEST_F(CommandLine, UnwritableOutputIsAnErrorBeforeTheWork) {
 
 TEST_F(CommandLine, WrongUsageShowsTheRightOne) {
   const std::string out = " -o " + output_.file("x.png");
-  expect_error("", 2, "");
+  expect_error("", 2, "render, import, info");
+  expect_error("render " + sphere() + " " + output_.file("x.png"), 2, "behind -o");
+  EXPECT_EQ(lines_of(run_program("view").err), 3);
   expect_error("rendr x", 2, "'render'");
   expect_error("render", 2, "INPUT");
   expect_error("render " + sphere(), 2, "--output");

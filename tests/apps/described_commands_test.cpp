@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/program.h"
 #include "tests/support/program.h"
 
 namespace tetraglass::tests {
@@ -107,6 +108,18 @@ TEST(ShellCompletion, HasEveryOptionOfEverySubcommand) {
   EXPECT_NE(wrong.err.find("did you mean 'bash'"), std::string::npos) << wrong.err;
 }
 
+/// Runs the program in this process, where it starts at once. Returns what it says on stderr.
+std::string run_here(Words words) {
+  words.insert(words.begin(), "tetraglass");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  (void)apps::run(static_cast<int>(pointers.size()), pointers.data());
+  (void)testing::internal::GetCapturedStdout();
+  return testing::internal::GetCapturedStderr();
+}
+
 class BashCompletion : public testing::Test {
  protected:
   void SetUp() override {
@@ -163,13 +176,133 @@ TEST_F(BashCompletion, OfferedWordsAreKnown) {
     ASSERT_GE(words.size(), 2U) << option;
     // Those that are told from the text around them.
     for (const std::string& word : {words.front(), words.back()}) {
-      const ProgramRun run = run_program(fmt::format("render '{}' --size 4x4 -o '{}' {} {}", mesh,
-                                                     folder_.file("o.npy"), option, word));
-      EXPECT_EQ(run.err.find("cannot be '"), std::string::npos) << option << run.err;
+      const std::string complaints =
+          run_here({"render", mesh, "--size", "4x4", "-o", folder_.file("o.npy"), option, word});
+      EXPECT_EQ(complaints.find("cannot be '"), std::string::npos) << option << complaints;
       ++tried;
     }
   }
+  EXPECT_NE(run_here({"render", mesh, "-o", folder_.file("o.npy"), "--mode", "nothing"})
+                .find("cannot be '"),
+            std::string::npos);
   EXPECT_GE(tried, 30U);
+}
+
+/// What completion offers after lines as a person types them, by the shell itself.
+class OtherShells : public testing::Test {
+ protected:
+  /// Skips where the shell is not installed.
+  void need(const std::string& shell) {
+    if (std::system((shell + " -c true >/dev/null 2>&1").c_str()) != 0)
+      GTEST_SKIP() << shell << " is not installed (scripts/setup does it)";
+  }
+
+  void save_completion(const std::string& shell, const std::string& file) {
+    ASSERT_EQ(std::system(fmt::format("'{}' --completion {} >'{}'", TETRAGLASS_PROGRAM, shell,
+                                      folder_.file(file))
+                              .c_str()),
+              0);
+  }
+
+  /// Runs a script in the folder, with the lines as its arguments. It prints "== LINE", and below
+  /// what is offered.
+  std::map<std::string, Words> ask(const std::string& command, const Words& lines) {
+    std::string script = fmt::format("cd '{}' && timeout 50 {}", folder_.file(""), command);
+    for (const std::string& line : lines) script += fmt::format(" '{}'", line);
+    EXPECT_EQ(std::system((script + " >replies 2>complaints").c_str()), 0)
+        << script << read_text(folder_.file("complaints"));
+    std::istringstream replies(read_text(folder_.file("replies")));
+    std::map<std::string, Words> found;
+    std::string line;
+    for (std::string reply; std::getline(replies, reply);) {
+      if (reply.starts_with("== ")) {
+        line = reply.substr(3);
+      } else if (!reply.empty()) {
+        found[line].push_back(reply);
+      }
+    }
+    return found;
+  }
+
+  /// The same is expected of both.
+  void check(const std::string& command) {
+    write_text(folder_.file("mesh.vtu"), "");
+    write_text(folder_.file("virtue.json"), "");
+    const std::string mode = "tetraglass render mesh.vtu --mode ";
+    auto offered = ask(
+        command, {"tetraglass re", "tetraglass render --mod", mode, "tetraglass sample sph",
+                  "tetraglass info me", "tetraglass render --tf vir", "tetraglass render --size ",
+                  "tetraglass render mesh.vtu -o me", "tetraglass view mesh.vtu --shad"});
+    EXPECT_THAT(offered["tetraglass re"], ElementsAre("render"));
+    EXPECT_THAT(offered["tetraglass render --mod"], ElementsAre("--mode", "--modulate"));
+    EXPECT_THAT(offered[mode], testing::UnorderedElementsAre("full", "emission", "absorption",
+                                                             "mip", "iso", "thickness"));
+    EXPECT_THAT(offered["tetraglass sample sph"], ElementsAre("sphere"));
+    EXPECT_THAT(offered["tetraglass info me"], ElementsAre("mesh.vtu"));
+    EXPECT_THAT(offered["tetraglass render --tf vir"], ElementsAre("viridis", "virtue.json"));
+    EXPECT_THAT(offered["tetraglass render --size "], ElementsAre());
+    EXPECT_THAT(offered["tetraglass render mesh.vtu -o me"], ElementsAre("mesh.vtu"));
+    EXPECT_THAT(offered["tetraglass view mesh.vtu --shad"], ElementsAre("--shading"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(OtherShells, Fish) {
+  ASSERT_NO_FATAL_FAILURE(need("fish"));
+  if (IsSkipped()) return;
+  ASSERT_NO_FATAL_FAILURE(save_completion("fish", "completion"));
+  // What stands behind a word, after a tab, is its description.
+  write_text(folder_.file("script"),
+             "set -x HOME (pwd)\nsource completion\nfor line in $argv\n  echo \"== $line\"\n"
+             "  complete -C $line | string replace -r '\\t.*' ''\nend\n");
+  check("fish -N script");
+}
+
+// On a terminal of its own, as completion in zsh is part of its line editor.
+TEST_F(OtherShells, Zsh) {
+  ASSERT_NO_FATAL_FAILURE(need("zsh"));
+  if (IsSkipped()) return;
+  ASSERT_NO_FATAL_FAILURE(save_completion("zsh", "_tetraglass"));
+  write_text(folder_.file("inside"), R"(PROMPT= ; RPROMPT=
+fpath=($PWD $fpath)
+autoload -Uz compinit
+compinit -u -D
+# What is added to the list is printed; calls that only ask for what fits are not.
+compadd() {
+  if (( ! ${@[(I)-[OAD]*]} )); then
+    local -a fitting
+    builtin compadd -A fitting "$@"
+    print -r -- ''
+    print -rl -- '<'$^fitting'>'
+  fi
+  builtin compadd "$@"
+}
+show() {
+  zle complete-word
+  print -r -- ''
+  print -r -- '<end>'
+}
+zle -N show
+bindkey '^T' show
+)");
+  write_text(folder_.file("script"), R"(zmodload zsh/zpty
+export TERM=dumb
+zpty -b terminal zsh -f -i
+zpty -w terminal 'source ./inside'
+for line in "$@"; do
+  print -r -- "== $line"
+  zpty -n -w terminal $'\C-u'"$line"$'\C-t'
+  all=
+  for try in {1..1000}; do
+    zpty -r -t terminal part && all+=$part || sleep 0.01
+    [[ $all == *'<end>'* ]] && break
+  done
+  print -r -- "$all" | tr -d '\r' | sed -n '/^<end>/d; s/^<\(.*\)>$/\1/p'
+done
+zpty -d terminal
+)");
+  check("zsh -f script");
 }
 
 TEST(ShellCompletion, IsSoundInEachShell) {

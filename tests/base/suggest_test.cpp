@@ -59,6 +59,16 @@ TEST(NearestNames, GivesAsManyAsAsked) {
   EXPECT_EQ(nearest_names("a", known, 5).size(), 5U);
 }
 
+TEST(Suggestion, OfExtensionsNamesAll) {
+  const Names known = {".png", ".vtu", ".vtk"};
+  EXPECT_EQ(unknown_extension(".jpg", known),
+            "its extension '.jpg' is not known; there are: .png .vtu .vtk");
+  EXPECT_EQ(unknown_extension(".vtx", known),
+            "its extension '.vtx' is not known; did you mean '.vtu' or '.vtk'?; there are: .png "
+            ".vtu .vtk");
+  EXPECT_EQ(unknown_extension("", known), "its name has no extension; there are: .png .vtu .vtk");
+}
+
 TEST(Suggestion, IsASentence) {
   EXPECT_EQ(suggestion("virdis", {"viridis", "coolwarm"}), "; did you mean 'viridis'?");
   EXPECT_EQ(suggestion("s1", {"s2", "s3"}), "; did you mean 's2' or 's3'?");
