@@ -3,26 +3,9 @@
 #include <algorithm>
 
 #include "mesh/gradients.h"
+#include "project/light/surface_value.h"
 
 namespace tetraglass::project::cpu {
-
-namespace {
-
-using preint::ControlPoint;
-
-/// The middle of the values of largest extinction, where these are neighbours.
-double value_of_surface(const preint::TransferFunction& tf) {
-  const std::vector<ControlPoint>& points = tf.points();
-  const auto less = [](const ControlPoint& a, const ControlPoint& b) {
-    return a.extinction < b.extinction;
-  };
-  const auto first = std::max_element(points.begin(), points.end(), less);
-  auto last = first;
-  while (last + 1 != points.end() && (last + 1)->extinction == first->extinction) ++last;
-  return 0.5 * first->value + 0.5 * last->value;
-}
-
-}  // namespace
 
 Lighting::Lighting(const Scene& scene, const DrawnCells& cells)
     : shading(scene.shading),
@@ -45,7 +28,7 @@ Lighting::Lighting(const Scene& scene, const DrawnCells& cells)
   const preint::TransferFunction& tf = scene.transfer_function;
   if (scene.mode == Mode::full) {
     materials = material_intervals(tf, cells.scale);
-    surface_value = cells.scale.scaled(value_of_surface(tf));
+    surface_value = cells.scale.scaled(project::surface_value(tf));
   }
   if (is_headlight) return;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -132,6 +132,9 @@ uniform sampler3D material_table;
 #ifdef RAMPED_LIGHT
 uniform sampler3D back_table;
 #endif
+#ifdef SURFACE_NORMAL
+#include "surface_place.glsl"
+#endif
 
 // Of a segment by its unlit light. With RAMPED_LIGHT, that is what remains of it for the front of the segment, the
 // opacity is that of all, and the rest is for the back (lum2004).
@@ -148,6 +151,8 @@ vec3 lit_medium(vec4 light, Segment seg, vec2 position) {
 #else
 #ifdef WEIGHTED_NORMAL
   place = mean.w;
+#elif defined(SURFACE_NORMAL)
+  place = surface_place(seg.front, seg.back);
 #endif
   return lit(m, light, seg, place, position);
 #endif

@@ -10,6 +10,7 @@
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/light/surface_value.h"
 #include "project/shown_cells.h"
 
 namespace tetraglass::project::gl {
@@ -73,6 +74,7 @@ const Program& CellProjector::program(bool parallel, const std::string& pass) {
   const double value = scene_.isosurfaces.empty() ? scene_.transfer_function.points()[0].value
                                                   : scene_.isosurfaces[0].value;
   program.set("material", material_texel(scene_, value));
+  program.set("lit_value", normalization_.value(surface_value(scene_.transfer_function)));
   return program;
 }
 

@@ -83,6 +83,9 @@ std::vector<std::string> shader_switches(const Scene& scene, const Plan& plan, b
     if (is_lit_medium(scene) && scene.shading == Shading::weighted) {
       names.emplace_back("WEIGHTED_NORMAL");
     }
+    if (is_lit_medium(scene) && scene.shading == Shading::surface) {
+      names.emplace_back("SURFACE_NORMAL");
+    }
     if (plan.light_map > 0) names.emplace_back("LIGHT_MAPS");
   }
   return names;

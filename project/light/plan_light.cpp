@@ -71,11 +71,10 @@ void check_shininess_of_medium(const Scene& scene, const Plan& plan) {
 }
 
 void check_medium_of_gl(const Scene& scene, const Plan& plan) {
-  if (scene.shading != Shading::single && scene.shading != Shading::weighted &&
-      scene.shading != Shading::interpolated) {
+  if (is_flat_or_smooth(scene.shading)) {
     throw base::UsageError(
         "--projector gl lights the segments of a medium once or at both of their ends: use "
-        "--shading single, weighted or interpolated, or --projector cpu");
+        "--shading single, weighted, surface or interpolated, or --projector cpu");
   }
   check_shininess_of_medium(scene, plan);
   const bool is_constant = scene.field.min == scene.field.max;
@@ -88,11 +87,10 @@ void check_medium_of_gl(const Scene& scene, const Plan& plan) {
 }
 
 void check_medium_of_slices(const Scene& scene, const Plan& plan) {
-  if (scene.shading != Shading::single && scene.shading != Shading::weighted &&
-      scene.shading != Shading::interpolated) {
+  if (is_flat_or_smooth(scene.shading)) {
     throw base::UsageError(
         "--projector slices lights the slabs of a medium once or at both of their sides: use "
-        "--shading single, weighted or interpolated, or --projector grid-reference");
+        "--shading single, weighted, surface or interpolated, or --projector grid-reference");
   }
   if (plan.slices.classify == Classify::pre) {
     throw base::UsageError(

@@ -11,6 +11,9 @@ uniform sampler2D material_table;
 #ifdef RAMPED_LIGHT
 uniform sampler2D back_table;
 #endif
+#ifdef SURFACE_NORMAL
+#include "surface_place.glsl"
+#endif
 
 // A color (RGB associated to A) at this depth of the ray.
 vec3 lit(Material m, vec4 color, Ray ray, vec2 position, float depth) {
@@ -26,9 +29,11 @@ vec4 lit_slab(vec4 light, float front, float back, float size, Ray ray, vec2 pos
 #ifdef MATERIAL_TABLE
   vec4 mean = looked_up_in(material_table, front, back);
   m = Material(mean.x, mean.y, mean.z, material.w);
+#endif
 #ifdef WEIGHTED_NORMAL
   place = mean.w;
-#endif
+#elif defined(SURFACE_NORMAL)
+  place = surface_place(front, back);
 #endif
 #ifdef RAMPED_LIGHT
   vec4 nearer = looked_up_in(table, front, back);

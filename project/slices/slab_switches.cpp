@@ -30,6 +30,9 @@ void add_light(const Scene& scene, const Plan& plan, std::vector<std::string>& n
   if (is_lit_medium(scene) && scene.shading == Shading::weighted) {
     names.emplace_back("WEIGHTED_NORMAL");
   }
+  if (is_lit_medium(scene) && scene.shading == Shading::surface) {
+    names.emplace_back("SURFACE_NORMAL");
+  }
 }
 
 }  // namespace

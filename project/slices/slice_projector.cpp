@@ -12,6 +12,7 @@
 #include "project/gl/surface_texels.h"
 #include "project/gl/switches.h"
 #include "project/gl/target_image.h"
+#include "project/light/surface_value.h"
 #include "project/slices/slab_switches.h"
 #include "project/slices/slab_triangles.h"
 
@@ -156,6 +157,7 @@ const gl::Program& SliceProjector::program(bool parallel, std::optional<int> lay
   lights_.set_uniforms(program);
   // Of a medium there is one, or one shininess (plan_light).
   program.set("material", gl::material_texel(scene_, scene_.transfer_function.points()[0].value));
+  program.set("lit_value", normalization_.value(surface_value(scene_.transfer_function)));
   if (scene_.modulation) program.set("modulation", gl::modulation_factor(scene_, normalization_));
   const Eigen::Vector3i last = whole_grid(*scene_.grid).high;
   program.set("last_point", Eigen::Vector3f(last.cast<float>()));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 
@@ -226,6 +227,25 @@ TEST_F(EffectsTest, ShadersOfGlHaveTheCodeOfWhatIsThereOnly) {
   std::set<std::string> with_light = unlit;
   with_light.insert("SHADING_SMOOTH");
   EXPECT_EQ(switches(lit), with_light);
+  std::set<std::string> unlit_medium = emission;
+  unlit_medium.erase("MODE_EMISSION");
+  unlit_medium.insert("MODE_FULL");
+  EXPECT_EQ(switches(scene(Mode::full)), unlit_medium);
+  Scene lit_medium = scene(Mode::full);
+  for (const auto& [shading, names] : std::map<Shading, std::set<std::string>>{
+           {Shading::single, {}},
+           {Shading::surface, {"SURFACE_NORMAL"}},
+           {Shading::weighted, {"MATERIAL_TABLE", "WEIGHTED_NORMAL"}},
+           {Shading::interpolated, {"TABLE_3D", "RAMPED_LIGHT"}}}) {
+    lit_medium.shading = shading;
+    std::set<std::string> expected = unlit_medium;
+    expected.insert("SHADING_SMOOTH");
+    expected.insert(names.begin(), names.end());
+    if (shading == Shading::interpolated) expected.erase("NEEDS_MEDIUM");
+    EXPECT_EQ(switches(lit_medium), expected) << to_string(shading);
+  }
+  EXPECT_EQ(draw(scene(Mode::full), Projector::gl).stats.work.count(Effect::gradients), 0U);
+  EXPECT_EQ(draw(scene(Mode::full), Projector::gl).stats.work.count(Effect::table), 0U);
   EXPECT_EQ(draw(scene(Mode::iso), Projector::gl).stats.work.count(Effect::gradients), 0U);
   EXPECT_EQ(draw(lit, Projector::gl).stats.work.count(Effect::gradients), 1U);
 }

@@ -49,6 +49,8 @@ TEST(SlabSwitches, AnUnlitSceneHasNoLightInItsShader) {
   lit.shading = Shading::weighted;
   EXPECT_EQ(added(switches(lit), plain),
             (Names{"SHADING_SMOOTH", "LIGHTS", "MATERIAL_TABLE", "WEIGHTED_NORMAL"}));
+  lit.shading = Shading::surface;
+  EXPECT_EQ(added(switches(lit), plain), (Names{"SHADING_SMOOTH", "LIGHTS", "SURFACE_NORMAL"}));
   lit.shading = Shading::interpolated;
   EXPECT_EQ(added(switches(lit), plain),
             (Names{"TABLE_2D", "SHADING_SMOOTH", "LIGHTS", "RAMPED_LIGHT"}));

@@ -81,6 +81,19 @@ TEST(SlabTables, TheWeightFindsTheNormalsOfShells) {
   }
 }
 
+// Of one shell the value of the largest extinction tells the place as well.
+TEST(SlabTables, OneSurfaceIsLitAtItsValue) {
+  const mesh::TetMesh mesh = grid_mesh(twisted);
+  const preint::TransferFunction shell(
+      {{-0.35, {0.9, 0.5, 0.15}, 0}, {-0.3, {0.9, 0.5, 0.15}, 20}, {-0.25, {0.9, 0.5, 0.15}, 0}});
+  const Scene scene = lit_scene(mesh, shell);
+  const Image reference = lit_reference(scene);
+  const double single = rms(scene, Shading::single, 10, reference);
+  const double surface = rms(scene, Shading::surface, 10, reference);
+  fmt::print("RMS {:.1e} single, {:.1e} surface\n", single, surface);
+  EXPECT_LT(surface, single / 2);
+}
+
 // lum2004: light at both sides of a slab instead of once. What is left is that of the table.
 TEST(SlabTables, LightAtBothSidesOfASlabIsBetterThanOnce) {
   const mesh::TetMesh mesh = grid_mesh(twisted);
@@ -141,7 +154,8 @@ TEST(SlabTables, AllWaysAgreeOnAConstantNormal) {
   Scene scene = lit_scene(mesh, smooth_medium());
   scene.lights->lights.pop_back();
   const Image reference = lit_reference(scene);
-  for (const Shading shading : {Shading::single, Shading::weighted, Shading::interpolated}) {
+  for (const Shading shading :
+       {Shading::single, Shading::weighted, Shading::surface, Shading::interpolated}) {
     EXPECT_LT(rms(scene, shading, 10, reference), 5e-5) << to_string(shading);
   }
 }
@@ -211,7 +225,8 @@ TEST(SlabTables, PlanTellsWhatSlicesLack) {
     EXPECT_THROW(planned(shading, Classify::post), base::UsageError);
     EXPECT_THROW(planned(shading, Classify::pre), base::UsageError);
   }
-  EXPECT_THROW(planned(Shading::surface, Classify::integrated), base::UsageError);
+  EXPECT_NO_THROW(planned(Shading::surface, Classify::integrated));
+  EXPECT_THROW(planned(Shading::smooth, Classify::integrated), base::UsageError);
   scene.transfer_function = shells({0.1, 0.7, 0.2, 8}, {0.1, 0.7, 0.2, 30});
   EXPECT_THROW(planned(Shading::single, Classify::integrated), base::UsageError);
 }
