@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
+
 namespace tetraglass::base {
 namespace {
 
@@ -22,6 +24,7 @@ Progress::~Progress() {
 }
 
 void Progress::advance(std::uint64_t steps) {
+  throw_if_interrupted();
   const std::uint64_t done = done_ += steps;
   if (!terminal_) return;
   const auto now = static_cast<std::int64_t>(clock_.milliseconds());

@@ -18,6 +18,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Throws Interrupted (interrupt.h).
   void advance(std::uint64_t steps = 1);
 
   /// Says what is being done, behind the label. Not from several threads at once.

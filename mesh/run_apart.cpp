@@ -150,10 +150,19 @@ Apart run_apart(const std::function<std::string()>& work, unsigned seconds,
     throw base::Error(std::string("no process can be made: ") + std::strerror(error));
   }
   Apart apart;
-  apart.result = await(results.ends[0], stages.ends[0], label);
   int status = 0;
-  while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  const auto wait = [&] {
+    while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+    }
+  };
+  try {
+    apart.result = await(results.ends[0], stages.ends[0], label);
+  } catch (...) {  // nobody waits for it any more
+    ::kill(copy, SIGKILL);
+    wait();
+    throw;
   }
+  wait();
   apart.ending = ending_of(status, seconds);
   return apart;
 }

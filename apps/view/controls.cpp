@@ -37,6 +37,7 @@ constexpr std::array kControls = {
     Control{Action::toggle_panel, "Tab", "hide or show the panel", GLFW_KEY_TAB},
     Control{Action::help, "H, F1", "this list", GLFW_KEY_H},
     Control{Action::help, "", "", GLFW_KEY_F1},
+    Control{Action::give_up, "Esc", "stop reading another file, keep this one", GLFW_KEY_ESCAPE},
     Control{Action::quit, "Q", "close the window", GLFW_KEY_Q},
 };
 

@@ -32,6 +32,7 @@ enum class Action {
   verify,
   toggle_panel,
   help,
+  give_up,
   quit
 };
 

@@ -14,6 +14,7 @@
 #include "apps/picture_files.h"
 #include "apps/view/camera_motion.h"
 #include "base/errors.h"
+#include "base/interrupt.h"
 #include "base/stopwatch.h"
 
 namespace tetraglass::apps::view {
@@ -101,8 +102,10 @@ project::Image enlarged(const project::Image& image, int width, int height) {
 /// What is kept from picture to picture, on the drawing thread.
 class Drawing::Work {
  public:
-  Work(const MakeContext& make_context, bool prefer_gl)
-      : make_context_(make_context), prefer_gl_(prefer_gl) {}
+  using Begin = std::function<void(Busy::Stage)>;
+
+  Work(const MakeContext& make_context, bool prefer_gl, Begin begin)
+      : make_context_(make_context), prefer_gl_(prefer_gl), begin_(std::move(begin)) {}
 
   Drawn draw(const DrawRequest& request);
 
@@ -115,6 +118,7 @@ class Drawing::Work {
 
   const MakeContext& make_context_;
   bool prefer_gl_;
+  Begin begin_;
   std::optional<std::uint64_t> mesh_version_;
   std::optional<std::uint64_t> scene_version_;
   std::unique_ptr<project::gl::Context> context_;
@@ -155,10 +159,12 @@ project::Plan Drawing::Work::make_plan(const project::Scene& scene,
 
 void Drawing::Work::read(const DrawRequest& request) {
   if (mesh_version_ == request.mesh_version) return;
+  begin_(Busy::Stage::read);
   mesh::ImportOptions options = request.arguments.import;
   options.grid_only = draws_grid(request.arguments);
   // What is shown stays where this fails.
   mesh::Import import = import_and_tell(request.arguments.input, options);
+  base::throw_if_interrupted();
   projector_.reset();
   facts_.reset();
   field_.reset();
@@ -181,6 +187,7 @@ void Drawing::Work::select(const RenderArguments& arguments) {
 
 void Drawing::Work::set_up(const DrawRequest& request, Drawn& drawn) {
   if (scene_version_ == request.scene_version) return;
+  begin_(Busy::Stage::set_up);
   const base::Stopwatch clock;
   scene_version_.reset();
   select(request.arguments);
@@ -238,6 +245,7 @@ Drawn Drawing::Work::draw(const DrawRequest& request) {
     drawn.camera = figure.with_room_for_axes({framed(import_.mesh, *request.framing, aspect)});
   }
   drawn.coarseness = request.coarseness;
+  begin_(Busy::Stage::draw);
   const base::Stopwatch clock;
   scene_.camera = drawn.camera;
   scene_.width = coarse(width, request.coarseness);
@@ -254,6 +262,7 @@ Drawn Drawing::Work::draw(const DrawRequest& request) {
                            make_background(request.arguments, scene_.mode));
   drawn.draw_ms = clock.milliseconds();
   if (request.verify > 0 && request.coarseness == 1) {
+    begin_(Busy::Stage::verify);
     drawn.verified = project::verify(scene_, image, request.verify);
   }
   drawn.facts = facts_;
@@ -270,9 +279,11 @@ Drawing::~Drawing() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
+    base::interrupt(working_.has_value());
   }
   changed_.notify_one();
   thread_.join();
+  base::interrupt(false);
 }
 
 void Drawing::request(DrawRequest request) {
@@ -283,22 +294,41 @@ void Drawing::request(DrawRequest request) {
   changed_.notify_one();
 }
 
+void Drawing::interrupt() {
+  const std::lock_guard lock(mutex_);
+  if (working_) base::interrupt(true);
+}
+
+std::optional<Busy> Drawing::busy() {
+  const std::lock_guard lock(mutex_);
+  if (!working_) return std::nullopt;
+  return Busy{working_->first, working_->second.milliseconds()};
+}
+
+void Drawing::begin(Busy::Stage stage) {
+  const std::lock_guard lock(mutex_);
+  working_.emplace(stage, base::Stopwatch());
+}
+
 std::unique_ptr<Drawn> Drawing::take() {
   const std::lock_guard lock(mutex_);
   return std::move(finished_);
 }
 
 void Drawing::run() {
-  Work work(make_context_, prefer_gl_);
+  Work work(make_context_, prefer_gl_, [this](Busy::Stage stage) { begin(stage); });
   while (true) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return stop_ || waiting_; });
     if (stop_) return;
     const DrawRequest request = *std::exchange(waiting_, std::nullopt);
+    working_.emplace(Busy::Stage::draw, base::Stopwatch());
     lock.unlock();
     auto drawn = std::make_unique<Drawn>();
     try {
       *drawn = work.draw(request);
+    } catch (const base::Interrupted&) {
+      drawn->interrupted = true;
     } catch (const std::bad_alloc&) {
       drawn->error = "not enough memory for this picture";
       drawn->failure = std::current_exception();
@@ -310,6 +340,8 @@ void Drawing::run() {
     drawn->scene_version = request.scene_version;
     drawn->framing_version = request.framing_version;
     lock.lock();
+    working_.reset();
+    base::interrupt(false);
     finished_ = std::move(drawn);
     lock.unlock();
     wake_();

@@ -9,9 +9,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "apps/render_arguments.h"
+#include "base/stopwatch.h"
 #include "mesh/time_step.h"
 #include "preint/transfer_function_edit.h"
 #include "project/gl/context.h"
@@ -70,6 +72,7 @@ struct Drawn {
   std::uint64_t framing_version = 0;
   std::string error;  ///< one line; nothing else is set then but
   std::exception_ptr failure;
+  bool interrupted = false;  ///< given up by `Drawing::interrupt`; there is no picture
   project::Camera camera;
   int coarseness = 1;
   int width = 0;  ///< of `pixels`
@@ -83,6 +86,13 @@ struct Drawn {
   std::shared_ptr<const SceneFacts> facts;
 };
 
+/// What the drawing thread does, and for how long it has.
+struct Busy {
+  enum class Stage { read, set_up, draw, verify };
+  Stage stage = Stage::draw;
+  double ms = 0;
+};
+
 /// Draws on a thread of its own, one picture at a time. What is read and set up for a picture is
 /// kept for the next ones.
 class Drawing {
@@ -94,7 +104,7 @@ class Drawing {
   /// itself where `prefer_gl`.
   explicit Drawing(std::function<void()> wake, MakeContext make_context = {},
                    bool prefer_gl = false);
-  /// Waits for the picture in work.
+  /// Gives up the picture in work, waits for what cannot be.
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
@@ -102,12 +112,18 @@ class Drawing {
   /// Replaces a request that waits. The one in work is finished.
   void request(DrawRequest request);
 
+  /// Gives up the picture in work, if there is one: it comes as one that was interrupted, soon.
+  void interrupt();
+
+  [[nodiscard]] std::optional<Busy> busy();
+
   /// The picture finished since the last call, if there is one.
   [[nodiscard]] std::unique_ptr<Drawn> take();
 
  private:
   class Work;
   void run();
+  void begin(Busy::Stage stage);
 
   std::function<void()> wake_;
   MakeContext make_context_;
@@ -116,6 +132,7 @@ class Drawing {
   std::condition_variable changed_;
   std::optional<DrawRequest> waiting_;
   std::unique_ptr<Drawn> finished_;
+  std::optional<std::pair<Busy::Stage, base::Stopwatch>> working_;
   bool stop_ = false;
   std::thread thread_;
 };

@@ -18,6 +18,7 @@ std::optional<int> Pacing::next(double now_ms) const {
 }
 
 void Pacing::started(int coarseness) {
+  refining_ = coarseness == 1 && drawn_ && *drawn_ > 1;
   drawing_ = coarseness;
   drawn_ = coarseness;
 }
@@ -33,6 +34,11 @@ void Pacing::finished(double ms) {
   // and only from what was in time.
   if (fits < coarseness_) fits = coarseness_ - 1;
   coarseness_ = fits;
+}
+
+void Pacing::interrupted() {
+  drawing_.reset();
+  drawn_.reset();
 }
 
 void Pacing::failed() {

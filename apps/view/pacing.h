@@ -26,6 +26,13 @@ class Pacing {
   /// It took so long to draw.
   void finished(double ms);
 
+  /// It was given up before it was ready.
+  void interrupted();
+
+  /// Whether what is being drawn is the picture at rest of what has changed since: there is a
+  /// coarser one of it, and nobody waits for this one.
+  [[nodiscard]] bool outdated() const { return drawing_ && refining_ && !drawn_; }
+
   /// It could not be drawn; nothing is tried again until something changes.
   void failed();
 
@@ -35,6 +42,8 @@ class Pacing {
   /// Whether the last picture drawn is of what is wanted, in full.
   [[nodiscard]] bool complete() const { return drawn_ && *drawn_ == 1 && !drawing_; }
 
+  [[nodiscard]] bool drawing() const { return drawing_.has_value(); }
+
   /// Of pictures while moving.
   [[nodiscard]] int coarseness() const { return coarseness_; }
 
@@ -43,6 +52,7 @@ class Pacing {
   double changed_ms_ = 0;
   std::optional<int> drawn_;  // how coarsely what is wanted now was drawn, or is being drawn
   std::optional<int> drawing_;
+  bool refining_ = false;
 };
 
 }  // namespace tetraglass::apps::view

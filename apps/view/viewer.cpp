@@ -260,10 +260,25 @@ std::optional<DrawRequest> Viewer::next_request() {
   request.height = height_;
   request.coarseness = *coarseness;
   request.verify = verify_;
+  drawing_mesh_version_ = mesh_version_;
+  verifying_ = verify_ > 0 && *coarseness == 1;
   return request;
 }
 
+bool Viewer::outdated() const {
+  if (!pacing_.drawing()) return false;
+  // Steps of time that are skimmed through are read to their end: some are seen.
+  const bool other_file =
+      drawing_mesh_version_ != mesh_version_ && (!before_ || before_->other_file);
+  return pacing_.outdated() || other_file || (verifying_ && verify_ == 0);
+}
+
+void Viewer::give_up() {
+  if (before_) go_back("given up: " + arguments_.input);
+}
+
 void Viewer::accept(std::unique_ptr<Drawn> drawn) {
+  if (drawn->interrupted) return pacing_.interrupted();
   const bool wanted = drawn->mesh_version == mesh_version_;  // not of a file that was left
   error_ = drawn->error;
   if (!error_.empty()) {

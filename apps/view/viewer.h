@@ -83,6 +83,10 @@ class Viewer {
   [[nodiscard]] std::optional<DrawRequest> next_request();
   /// What came of it.
   void accept(std::unique_ptr<Drawn> drawn);
+  /// Whether what is being drawn is wanted no longer, and something else is.
+  [[nodiscard]] bool outdated() const;
+  /// Another file or time step that is being read is left, for the one before it.
+  void give_up();
   /// How long until there may be something to draw though nothing changes.
   [[nodiscard]] std::optional<double> wait_ms() const { return pacing_.wait_ms(now_ms_); }
   [[nodiscard]] bool complete() const { return pacing_.complete() && error_.empty(); }
@@ -143,6 +147,8 @@ class Viewer {
   std::uint64_t framing_version_ = 1;
   std::uint64_t mesh_version_ = 1;
   std::uint64_t last_mesh_version_ = 1;
+  std::uint64_t drawing_mesh_version_ = 1;
+  bool verifying_ = false;
   std::uint64_t scene_version_ = 1;
   int width_ = 0;
   int height_ = 0;

@@ -33,6 +33,9 @@ namespace {
 constexpr int kPixelsVerified = 1000;
 // ImGui settles what the mouse is over, and the size of its windows, a frame or two after an event.
 constexpr int kFramesAfterEvent = 2;
+// Work that lasts longer is shown, with its time.
+constexpr double kSeenMs = 500;
+constexpr double kEveryMs = 250;
 
 /// ImGui on a window, while it lives.
 class Interface {
@@ -90,7 +93,7 @@ class ViewerWindow {
   void show_frame();
   void place_picture();
   void show_picture() const;
-  void show_notice() const;
+  void show_notice();
   void follow_mouse();
   void follow_keys();
   void follow_title();
@@ -156,10 +159,12 @@ void ViewerWindow::run() {
     follow_keys();
     follow_title();
     if (window_.framebuffer().minCoeff() > 0) show_frame();
+    if (viewer_.outdated()) drawing_.interrupt();
     start_drawing();
     perform_when_complete();
     if (panel_.playing && viewer_.complete()) viewer_.next_time_step();
   }
+  glfwHideWindow(window_.handle());  // what is being read is waited for
 }
 
 void ViewerWindow::wait_for_events() {
@@ -169,7 +174,11 @@ void ViewerWindow::wait_for_events() {
     --frames_left_;
     return;
   }
-  const std::optional<double> wait = viewer_.wait_ms();
+  std::optional<double> wait = viewer_.wait_ms();
+  if (const std::optional<Busy> busy = drawing_.busy()) {
+    const double seen = std::max(kSeenMs - busy->ms, kEveryMs);
+    wait = std::min(wait.value_or(seen), seen);
+  }
   if (wait) {
     glfwWaitEventsTimeout(std::max(1.0, *wait) / 1000);
   } else {
@@ -218,12 +227,27 @@ void ViewerWindow::show_picture() const {
       reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_.name())), first, last);
 }
 
-void ViewerWindow::show_notice() const {
+/// "reading heat.vtu ... 3 s"
+std::string describe(const Busy& busy, const std::string& file) {
+  std::string what = "drawing";
+  if (busy.stage == Busy::Stage::read) {
+    what = "reading " + std::filesystem::path(file).filename().string();
+  } else if (busy.stage == Busy::Stage::set_up) {
+    what = "setting up the scene";
+  } else if (busy.stage == Busy::Stage::verify) {
+    what = "verifying";
+  }
+  return fmt::format("{} ... {:.0f} s", what, busy.ms / 1000);
+}
+
+void ViewerWindow::show_notice() {
   std::string text = notice_;
   const Drawn* picture = viewer_.picture();
   if (picture != nullptr && picture->coarseness > 1) {
     text = fmt::format("1/{} of the resolution while moving", picture->coarseness);
   }
+  const std::optional<Busy> busy = drawing_.busy();
+  if (busy && busy->ms >= kSeenMs) text = describe(*busy, viewer_.arguments().input);
   if (!viewer_.refusal().empty()) text = viewer_.refusal();
   if (!viewer_.error().empty()) text = viewer_.error();
   const bool error = !viewer_.error().empty() || !viewer_.refusal().empty();
@@ -354,6 +378,8 @@ void ViewerWindow::perform(Action action) {
     case Action::help:
       panel_.help = !panel_.help;
       break;
+    case Action::give_up:
+      return viewer_.give_up();
     case Action::quit:
       glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE);
       break;

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "project/cpu/tile_order.h"
 #include "project/opaque_layers.h"
@@ -232,6 +233,7 @@ Image CellProjector::draw_tiles(const Picture& shared, Stats& stats) {
   tbb::parallel_for(
       std::size_t{0}, tiles.size(),
       [&](std::size_t i) {
+        base::throw_if_interrupted();
         const std::size_t tile = tiles[i];
         const Region region{static_cast<int>(tile % bins_.tiles_x()) * shared.tile_size,
                             static_cast<int>(tile / bins_.tiles_x()) * shared.tile_size,

@@ -6,7 +6,10 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "base/interrupt.h"
 #include "support/temporary_folder.h"
 
 namespace tetraglass::mesh {
@@ -50,6 +53,19 @@ TEST(RunApart, StopsWorkThatDoesNotEnd) {
       },
       1, "test");
   EXPECT_EQ(apart.ending, "took more than 1 s");
+}
+
+// The copy is ended, not left running: it would never end by itself.
+TEST(RunApart, IsGivenUpWhenInterrupted) {
+  base::interrupt(true);
+  EXPECT_THROW((void)run_apart(
+                   []() -> std::string {
+                     for (;;) ::pause();
+                   },
+                   1, "test"),
+               base::Interrupted);
+  base::interrupt(false);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1) << "a child is left";
 }
 
 TEST(RunApart, PrintsNothingAndChangesNothing) {

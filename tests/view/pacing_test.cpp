@@ -36,6 +36,27 @@ TEST(Pacing, AChangeDuringADrawingIsDrawnAfterIt) {
   EXPECT_TRUE(pacing.next(40));
 }
 
+// What is drawn while moving is always shown; what is drawn at rest is given up for a change.
+TEST(Pacing, OnlyPicturesAtRestAreOutdated) {
+  Pacing pacing;
+  pacing.changed(0);
+  pacing.started(*pacing.next(0));
+  pacing.changed(1);
+  EXPECT_FALSE(pacing.outdated());
+  pacing.finished(Pacing::kMovingMs);
+  pacing.started(*pacing.next(100));
+  pacing.finished(Pacing::kMovingMs);
+  EXPECT_EQ(pacing.next(1000), 1);
+  pacing.started(1);
+  EXPECT_FALSE(pacing.outdated()) << "nothing has changed";
+  pacing.changed(1010);
+  EXPECT_TRUE(pacing.outdated());
+  pacing.interrupted();
+  EXPECT_FALSE(pacing.outdated());
+  EXPECT_FALSE(pacing.complete());
+  EXPECT_GT(*pacing.next(1020), 1) << "while it moves";
+}
+
 // A machine that takes `ms_in_full` for all pixels: moving pictures settle in time, as fine as that
 // allows, and do not flicker between two.
 TEST(Pacing, MovingPicturesSettleInTime) {

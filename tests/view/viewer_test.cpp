@@ -8,6 +8,7 @@
 #include "project/image_file.h"
 #include "project/render.h"
 #include "tests/support/program.h"
+#include "tests/view/virtual_display.h"
 
 namespace tetraglass::apps::view {
 namespace {
@@ -37,17 +38,23 @@ class ViewerTest : public testing::Test {
   /// Draws until nothing is left to draw.
   void finish(Viewer& viewer) {
     for (int idle = 0; idle < 2;) {
-      viewer.tick(now_ms_ += 1000);
+      tick(viewer);
       auto request = viewer.next_request();
       if (!request) {
         ++idle;
         continue;
       }
       idle = 0;
-      drawing_.request(*std::move(request));
-      ready_.acquire();
-      viewer.accept(drawing_.take());
+      draw(viewer, *std::move(request));
     }
+  }
+
+  void tick(Viewer& viewer) { viewer.tick(now_ms_ += 1000); }
+
+  void draw(Viewer& viewer, DrawRequest request) {
+    drawing_.request(std::move(request));
+    ready_.acquire();
+    viewer.accept(drawing_.take());
   }
 
   static project::Image rendered(const Viewer& viewer) {
@@ -59,11 +66,12 @@ class ViewerTest : public testing::Test {
     return project::render(scene, project::plan(scene, make_request(made)), stats);
   }
 
- private:
-  static tests::TemporaryFolder* folder_;
   double now_ms_ = 0;
   std::binary_semaphore ready_{0};
   Drawing drawing_{[this] { ready_.release(); }};
+
+ private:
+  static tests::TemporaryFolder* folder_;
 };
 
 tests::TemporaryFolder* ViewerTest::folder_ = nullptr;
@@ -172,6 +180,60 @@ TEST_F(ViewerTest, AFileThatVanishes) {
   viewer.open(file());
   finish(viewer);
   EXPECT_TRUE(viewer.complete()) << viewer.error();
+}
+
+// What nobody waits for any more is given up; the next picture is what it would have been.
+TEST_F(ViewerTest, WhatIsOutdatedIsGivenUp) {
+  RenderArguments slow = arguments();
+  slow.projector = "reference";  // a second, in full
+  Viewer viewer(slow, {});
+  viewer.resize(450, 350);
+  tick(viewer);
+  draw(viewer, *viewer.next_request());
+  tick(viewer);
+  auto request = viewer.next_request();
+  ASSERT_TRUE(request);
+  ASSERT_EQ(request->coarseness, 1);
+  drawing_.request(*std::move(request));
+  ASSERT_TRUE(tests::wait_until([&] {
+    const auto busy = drawing_.busy();
+    return busy && busy->stage == Busy::Stage::draw && busy->ms > 20;
+  }));
+  EXPECT_FALSE(viewer.outdated());
+  viewer.resize(60, 50);
+  EXPECT_TRUE(viewer.outdated());
+  drawing_.interrupt();
+  ready_.acquire();
+  std::unique_ptr<Drawn> drawn = drawing_.take();
+  EXPECT_TRUE(drawn->interrupted);
+  EXPECT_EQ(drawn->error, "");
+  viewer.accept(std::move(drawn));
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+  EXPECT_EQ(viewer.picture()->image.rgba, rendered(viewer).rgba);
+}
+
+// Another file that is being read can be left for the one that is shown.
+TEST_F(ViewerTest, ReadingIsGivenUp) {
+  Viewer viewer(arguments(), {});
+  viewer.resize(60, 50);
+  finish(viewer);
+  const std::vector<std::string> command = viewer.command("a.png");
+  viewer.give_up();  // nothing is being read
+  EXPECT_EQ(viewer.refusal(), "");
+  viewer.open(folder().file("missing.vtu"));
+  ASSERT_TRUE(viewer.next_request());
+  EXPECT_FALSE(viewer.outdated());
+  viewer.give_up();
+  EXPECT_TRUE(viewer.outdated());
+  EXPECT_EQ(viewer.command("a.png"), command);
+  EXPECT_TRUE(viewer.refusal().starts_with("given up: ")) << viewer.refusal();
+  auto given_up = std::make_unique<Drawn>();
+  given_up->interrupted = true;
+  viewer.accept(std::move(given_up));
+  finish(viewer);
+  EXPECT_TRUE(viewer.complete()) << viewer.error();
+  EXPECT_EQ(viewer.command("a.png"), command);
 }
 
 TEST_F(ViewerTest, NoPixelsNoPicture) {
