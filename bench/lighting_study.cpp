@@ -1,7 +1,9 @@
 // Ways to light a medium: how wrong each is, against the reference that lights every point of every
-// ray, and what it costs; cube maps of lights against their sum; and what becomes of normals that
-// are not normalized after interpolation. Prints Markdown.
-//   lighting_study [media | maps | normals [FOLDER]]    (default: all; FOLDER gets two pictures)
+// ray, and what it costs; the same of the projectors that draw by OpenGL; cube maps of lights
+// against their sum; and what becomes of normals that are not normalized after interpolation.
+// Prints Markdown.
+//   lighting_study [media | gl | slices | maps | normals [FOLDER]]
+//   (default: all; FOLDER gets two pictures)
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +133,92 @@ void study(const std::string& name, std::size_t cells) {
   }
 }
 
+struct Timed {
+  project::Image image;
+  double ms = 0;  ///< the median of some frames after the first
+};
+
+Timed draw_frames(const project::Scene& scene, const project::Request& request) {
+  project::Stats stats;
+  project::SceneProjector projector(scene, project::plan(scene, request), stats);
+  Timed drawn;
+  std::vector<double> times;
+  for (int i = 0; i <= kFrames; ++i) {
+    const base::Stopwatch clock;
+    drawn.image = projector.draw(stats);
+    if (i > 0) times.push_back(clock.milliseconds());
+  }
+  std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
+  drawn.ms = times[kFrames / 2];
+  return drawn;
+}
+
+/// One row for each way to light that OpenGL has, and one without light: errors of pictures of
+/// kCheckedSize, times of such of kTimedSize / 2.
+void study_projector(const std::string& drawn, project::Scene scene,
+                     const project::Request& request, const std::string& medium,
+                     const project::Image& reference) {
+  for (const Shading shading : {Shading::single, Shading::weighted, Shading::surface,
+                                Shading::interpolated, Shading::none}) {
+    scene.shading = shading;
+    if (shading == Shading::none) scene.lights.reset();
+    scene.width = scene.height = kCheckedSize;
+    project::Stats stats;
+    const project::Difference difference =
+        project::compare(project::render(scene, project::plan(scene, request), stats), reference);
+    scene.width = scene.height = kTimedSize / 2;
+    fmt::print("| {} | {} | {} | {:.1e} | {:.1e} | {:.0f} |\n", drawn, medium, to_string(shading),
+               difference.max, difference.rms, draw_frames(scene, request).ms);
+    std::fflush(stdout);
+  }
+}
+
+void print_head_of_projectors() {
+  fmt::print(
+      "\n| drawn | medium | shading | largest error | RMS error | ms |\n"
+      "|---|---|---|---:|---:|---:|\n");
+}
+
+/// Cells by OpenGL, and by the cpu projector at the same size.
+void study_gl() {
+  print_head_of_projectors();
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 10000);
+  project::Scene scene = make_scene(mesh);
+  for (const Medium& medium : media(scene, mesh::bounds(mesh).diagonal().norm())) {
+    scene.transfer_function = medium.tf;
+    scene.width = scene.height = kCheckedSize;
+    scene.shading = Shading::smooth;
+    const project::Image reference = draw(scene, Projector::reference);
+    for (const Projector projector : {Projector::cpu, Projector::gl}) {
+      project::Request request;
+      request.projector = projector;
+      study_projector(fmt::format("{} cells by {}", mesh.cells.size(), to_string(projector)), scene,
+                      request, medium.name, reference);
+    }
+  }
+}
+
+/// The points of the same sample as a grid, by slabs of several lengths.
+void study_slices() {
+  print_head_of_projectors();
+  const mesh::TetMesh mesh = mesh::make_sample("orbital", 10000);
+  project::Scene scene = make_scene(mesh);
+  scene.grid = mesh::rectilinear_grid(mesh);
+  for (const Medium& medium : media(scene, mesh::bounds(mesh).diagonal().norm())) {
+    scene.transfer_function = medium.tf;
+    scene.width = scene.height = kCheckedSize;
+    scene.shading = Shading::single;
+    const project::Image reference = draw(scene, Projector::grid_reference);
+    for (const int slices : {25, 100}) {
+      project::Request request;
+      request.projector = Projector::slices;
+      request.slices.slices = slices;
+      study_projector(fmt::format("grid by {} slices", slices), scene, request, medium.name,
+                      reference);
+    }
+  }
+}
+
 /// So many far-away lights, spread evenly over the half of the sphere above the mesh.
 project::Lights spread_lights(int count) {
   project::Lights lights;
@@ -145,27 +233,11 @@ project::Lights spread_lights(int count) {
   return lights;
 }
 
-struct Timed {
-  project::Image image;
-  double ms = 0;  ///< the median of some frames after the first
-};
-
 Timed draw_with_map(const project::Scene& scene, int light_map) {
   project::Request request;
   request.projector = Projector::gl;
   request.light_map = light_map;
-  project::Stats stats;
-  project::SceneProjector projector(scene, project::plan(scene, request), stats);
-  Timed drawn;
-  std::vector<double> times;
-  for (int i = 0; i <= kFrames; ++i) {
-    const base::Stopwatch clock;
-    drawn.image = projector.draw(stats);
-    if (i > 0) times.push_back(clock.milliseconds());
-  }
-  std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
-  drawn.ms = times[kFrames / 2];
-  return drawn;
+  return draw_frames(scene, request);
 }
 
 /// Cube maps (meissner2002 section 3) against the sum over the lights.
@@ -255,6 +327,8 @@ int main(int argc, char** argv) {
       study("orbital", 10000);
       study("orbital", 150000);
     }
+    if (part.empty() || part == "gl") study_gl();
+    if (part.empty() || part == "slices") study_slices();
     if (part.empty() || part == "maps") study_maps();
     if (part.empty() || part == "normals") study_normals(argc > 2 ? argv[2] : "");
   } catch (const std::exception& error) {
