@@ -140,6 +140,14 @@ TEST_P(GlLayoutTest, PlanesHaveNoBadPixel) {
   for (const Layout kind : {Layout::indexed, Layout::strip}) {
     EXPECT_EQ(thickness_errors(wanted, draw(wanted, layout(kind)), 2e-4).bad, 0) << to_string(kind);
   }
+  Scene inside = wanted;
+  inside.camera.eye = {0.4, 0.45, 0.55};
+  inside.camera.fov_degrees = 100;
+  for (const Layout kind : {Layout::indexed, Layout::strip}) {
+    const Errors errors = thickness_errors(inside, draw(inside, layout(kind)), 2e-4);
+    EXPECT_EQ(errors.bad, 0) << to_string(kind);
+    std::cout << "eye inside, " << to_string(kind) << ": largest error " << errors.largest << '\n';
+  }
 }
 
 // weiler2002, section 4.3: "at most one pixel per tetrahedron", and in most cases none.
