@@ -15,6 +15,7 @@
 #include "apps/mesh_input.h"
 #include "apps/options.h"
 #include "apps/subcommands.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "sort/cell_sorter.h"
 #include "sort/verify.h"
@@ -161,15 +162,8 @@ void check_fragments(const mesh::TetMesh& mesh, const std::vector<std::uint32_t>
   }
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::string to_json(const OrderReport& report) {
-  const double ms = median(report.ms);
+  const double ms = base::median(report.ms);
   const nlohmann::ordered_json json = {
       {"method", report.method},
       {"exact", report.exact},
@@ -190,7 +184,7 @@ std::string to_json(const OrderReport& report) {
 }
 
 void print_for_people(const OrderReport& report) {
-  const double ms = median(report.ms);
+  const double ms = base::median(report.ms);
   fmt::print("{}: {}\n", report.method, report.exact ? "exact" : "approximate");
   if (ms > 0) {
     fmt::print("  {} cells in {:.3g} ms: {:.3g} million cells/s; {:.3g} ms once per mesh\n",

@@ -1,12 +1,12 @@
 #include "apps/render_report.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "project/effects.h"
 
@@ -27,12 +27,6 @@ nlohmann::ordered_json effects_json(const project::Scene& scene, const project::
     json[project::to_string(effect.effect)] = entry;
   }
   return json;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -69,7 +63,7 @@ std::string stats_json(const project::Scene& scene, const project::Plan& plan,
   if (!report.frame_ms.empty()) {
     json["frames"] = {
         {"count", report.frame_ms.size()},
-        {"median_ms", median(report.frame_ms)},
+        {"median_ms", base::median(report.frame_ms)},
         {"sum_ms", std::accumulate(report.frame_ms.begin(), report.frame_ms.end(), 0.0)}};
   }
   return json.dump(2) + "\n";

@@ -1,24 +1,18 @@
 // How long the window takes from an edit of the transfer function to the picture, beyond drawing
 // it. usage: edit_bench FILE
-#include <algorithm>
 #include <cstdio>
 #include <semaphore>
 #include <string>
 #include <vector>
 
 #include "apps/view/drawing.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 
 namespace {
 
 using namespace tetraglass;
 using namespace tetraglass::apps;
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 /// Edits that are drawn with so many pixels each way as one.
 void edit(view::Drawing& drawing, std::binary_semaphore& ready, view::DrawRequest request,
@@ -48,7 +42,7 @@ void edit(view::Drawing& drawing, std::binary_semaphore& ready, view::DrawReques
     total_ms.push_back(ms);
   }
   std::printf("1/%d of the resolution: %.0f ms, of them %.0f to set up the scene, %.0f to draw\n",
-              coarseness, median(total_ms), median(scene_ms), median(draw_ms));
+              coarseness, base::median(total_ms), base::median(scene_ms), base::median(draw_ms));
 }
 
 }  // namespace

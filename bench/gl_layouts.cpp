@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "mesh/import.h"
 #include "mesh/samples.h"
@@ -81,11 +82,6 @@ project::Camera turned(const project::Camera& camera, double part) {
   const Eigen::AngleAxisd turn(2 * 3.141592653589793 * part, Eigen::Vector3d::UnitZ());
   result.eye = camera.target + turn * (camera.eye - camera.target);
   return result;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 // A row of weiler2002's Tables 1 to 3.
@@ -169,7 +165,7 @@ std::vector<Cost> costs(const project::Scene& scene, const std::vector<Variant>&
   }
   std::vector<Cost> result;
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    result.push_back({median(times[i]) / 1000, double(projectors[i]->bytes()) / 1e6});
+    result.push_back({base::median(times[i]) / 1000, double(projectors[i]->bytes()) / 1e6});
   }
   return result;
 }

@@ -30,6 +30,7 @@
 #include <vtkVolumeProperty.h>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "bench/random_delaunay.h"
 #include "bench/vtk_grid.h"
@@ -189,12 +190,6 @@ Errors errors(const Image& image, const std::vector<Eigen::Vector2i>& pixels,
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 project::Camera camera_at(const mesh::TetMesh& mesh, int frame) {
   const double angle = 0.7 + kTurn * frame;
   return project::frame_camera(mesh::bounds(mesh), {std::cos(angle), std::sin(angle), 0.6},
@@ -261,12 +256,12 @@ void compare(const std::string& name, const mesh::TetMesh& mesh, const std::stri
     const int x = static_cast<int>(random() % kSize);
     pixels.emplace_back(x, static_cast<int>(random() % kSize));
   }
-  const double slowest = median(all.front().times);
+  const double slowest = base::median(all.front().times);
   for (const Contender& contender : all) {
     scene.mode = contender.mode;
     const Errors error =
         errors(contender.picture(), pixels, project::reference_pixels(scene, pixels));
-    const double time = median(contender.times);
+    const double time = base::median(contender.times);
     fmt::print("| {} | {} | {} | {} | {:.1f} | {:.2f} | {:.2g} | {:.2g} |\n", name,
                scene.drawable.cells.size(), function, contender.name, time, slowest / time,
                error.rms, error.largest);

@@ -4,7 +4,6 @@
 // FOLDER: of cells.svg and pixels.svg, of what is measured.
 // With 2e7 cells it needs some 4 GB of memory and minutes.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include <oneapi/tbb/info.h>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "bench/log_plot.h"
 #include "mesh/samples.h"
@@ -83,12 +83,6 @@ struct Cost {
   double bytes = 0;  ///< what the projector holds
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Cost draw(const project::Scene& scene, project::cpu::CellProjector& projector, int size) {
   std::vector<double> times;
   Cost cost;
@@ -107,7 +101,7 @@ Cost draw(const project::Scene& scene, project::cpu::CellProjector& projector, i
     if (i < 0) cost.bytes = bytes;
     cost.fragments = static_cast<double>(stats.fragments);
   }
-  cost.ms = median(times);
+  cost.ms = base::median(times);
   return cost;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.h"
+#include "base/median.h"
 #include "base/stopwatch.h"
 #include "project/render.h"
 
@@ -141,13 +142,6 @@ bool is_possible(const Scene& scene, const StudyCase& one) {
   }
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Times {
   std::vector<double> set_up;
   std::vector<double> frame;
@@ -261,8 +255,8 @@ Study study_accuracy(const Scene& scene, const std::vector<StudyCase>& cases,
   for (std::size_t i = 0; i < cases.size(); ++i) {
     StudyPoint& point = study.points[references + i];
     if (!point.failure.empty()) continue;
-    point.set_up_ms = median(times[i].set_up);
-    point.frame_ms = median(times[i].frame);
+    point.set_up_ms = base::median(times[i].set_up);
+    point.frame_ms = base::median(times[i].frame);
     point.error = compare(point.image, study.judge(point));
   }
   mark_front(study.points);
