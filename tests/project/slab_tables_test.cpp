@@ -110,6 +110,44 @@ TEST(SlabTables, LightAtBothSidesOfASlabIsBetterThanOnce) {
   EXPECT_LT(fine, 5e-4);
 }
 
+/// The largest change of the error from a pixel to one beside it: what the eye sees as the edge of
+/// a band.
+double largest_step(const Image& image, const Image& reference) {
+  double largest = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x + 1 < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const auto error = [&](int at) {
+          return double{image.pixel(at, y)[c]} - reference.pixel(at, y)[c];
+        };
+        largest = std::max(largest, std::abs(error(x + 1) - error(x)));
+      }
+    }
+  }
+  return largest;
+}
+
+// lum2004: the normal in the middle of a slab jumps where a shell passes from one slab to the next,
+// and the picture has bands like wood; light from both sides, or by the weight, does not jump.
+TEST(SlabTables, TablesHaveFewerBandsThanLightOnce) {
+  const mesh::TetMesh mesh = grid_mesh(twisted);
+  Scene scene = lit_scene(mesh, shells());
+  const Image reference = lit_reference(scene);
+  for (const int slices : {10, 20}) {
+    const auto step = [&](Shading shading) {
+      scene.shading = shading;
+      return largest_step(draw(scene, slices), reference);
+    };
+    const double single = step(Shading::single);
+    const double weighted = step(Shading::weighted);
+    const double interpolated = step(Shading::interpolated);
+    fmt::print("{:>2} slices: bands of {:.1e} single, {:.1e} weighted, {:.1e} interpolated\n",
+               slices, single, weighted, interpolated);
+    EXPECT_LT(weighted, single / 3) << slices;
+    EXPECT_LT(interpolated, single / 2) << slices;
+  }
+}
+
 // Shorter slabs have straighter normals, in every stack.
 TEST(SlabTables, ErrorsFallWithTheNumberOfSlices) {
   const mesh::TetMesh mesh = grid_mesh(twisted);
