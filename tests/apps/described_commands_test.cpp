@@ -263,6 +263,7 @@ TEST_F(OtherShells, Fish) {
 TEST_F(OtherShells, Zsh) {
   ASSERT_NO_FATAL_FAILURE(need("zsh"));
   if (IsSkipped()) return;
+  if (!has_terminals()) GTEST_SKIP() << "this machine gives no terminals (/dev/pts)";
   ASSERT_NO_FATAL_FAILURE(save_completion("zsh", "_tetraglass"));
   write_text(folder_.file("inside"), R"(PROMPT= ; RPROMPT=
 fpath=($PWD $fpath)

@@ -156,6 +156,7 @@ TEST(ImportCommand, LongWorkShowsABarOnATerminalAlone) {
   if (std::system("script --version >/dev/null 2>&1") != 0) {
     GTEST_SKIP() << "the program 'script', which makes a terminal, is not there";
   }
+  if (!has_terminals()) GTEST_SKIP() << "this machine gives no terminals (/dev/pts)";
 #ifdef TETRAGLASS_WITH_TETGEN
   expect_bar_on_a_terminal_alone("--max-volume 4e-6", "TetGen");
 #endif
