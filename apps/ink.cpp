@@ -38,13 +38,13 @@ std::string installed_family() {
 }
 
 void check_font() {
-  static const std::string family = [] {
+  static const std::string kInstalled = [] {
     std::string name = installed_family();
     if (!name.empty() && name != kFamily)
       warn(fmt::format("the font {} is not installed: text is set in {}", kFamily, name));
     return name;
   }();
-  if (family.empty()) {
+  if (kInstalled.empty()) {
     throw base::UnavailableError(
         "there is no font for the text around the picture: install fonts-dejavu-core, or leave out "
         "--legend, --axes and --title");

@@ -93,7 +93,7 @@ Eigen::Vector3d parse_direction(std::string_view text, std::string_view option) 
     throw base::UsageError(fmt::format(
         "{} needs a direction: +x, -x, +y, -y, +z, -z or X,Y,Z, not '{}'", option, text));
   }
-  const Eigen::Vector3d direction = parse_vector(text, option);
+  Eigen::Vector3d direction = parse_vector(text, option);
   if (!(direction.stableNorm() > 0))
     throw base::UsageError(fmt::format("{} needs a direction that is not 0,0,0", option));
   return direction;

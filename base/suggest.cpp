@@ -63,7 +63,7 @@ std::vector<std::string> nearest_names(std::string_view wrong,
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {
   std::vector<std::string> near = nearest_names(wrong, known);
   if (!near.empty()) {
-    for (std::string& name : near) name = "'" + name + "'";
+    for (std::string& name : near) name = fmt::format("'{}'", name);
     return fmt::format("; did you mean {}?", fmt::join(near, " or "));
   }
   if (known.empty()) return "; there are none";

@@ -102,7 +102,7 @@ class BoundaryReader {
 };
 
 std::string node_file(const std::string& file) {
-  const std::string nodes = std::filesystem::path(file).replace_extension(".node").string();
+  std::string nodes = std::filesystem::path(file).replace_extension(".node").string();
   if (!std::filesystem::is_regular_file(nodes)) {
     throw base::ReadError(file, fmt::format("the file with its points, {}, is missing", nodes));
   }
